@@ -15,13 +15,13 @@ namespace {
 constexpr double kMapHeight = 92.0;
 constexpr double kHeading = 10.0;
 constexpr double kCellText = 5.5;
-constexpr double kLeastText = 14.0;  // a shorter one is shown whole or not at all
+constexpr double kLeastText = 3.5;
 
 // What one square shows.
 struct Square {
   Shade shade;
   std::string text;
-  bool is_number = false;  ///< of an estimator, which the legend has too
+  bool may_be_cut = false;  ///< words; else a figure, of which the colour says it alone
 };
 
 // A map by place across, then up.
@@ -44,7 +44,9 @@ std::string relative_text(double relative) {
 
 Square drawn_square(const EstimatorResults& one, const std::optional<RegimeSquare>& square,
                     const std::string& unit) {
-  if (one.failures() > 0) return {shade_of_none(), std::to_string(one.failures()) + " failed"};
+  if (one.failures() > 0) {
+    return {shade_of_none(), std::to_string(one.failures()) + " failed", true};
+  }
   if (!square) return {shade_of_none(), "–"};
   return {square->shade,
           square->relative ? relative_text(*square->relative) : quantity(square->mean, unit)};
@@ -63,8 +65,7 @@ Square choice_square(const CellResults& cell, const std::string& metric, const s
   const auto choice = cheapest_of_the_best(cell, metric, cost);
   if (!choice) return {};
   const std::string number = number_of(study, *choice);
-  return {shade_of_choice(styles.at(*choice).colour), number.empty() ? *choice : number,
-          !number.empty()};
+  return {shade_of_choice(styles.at(*choice).colour), number.empty() ? *choice : number, true};
 }
 
 template <class SquareOf>
@@ -116,17 +117,14 @@ ChartAxis square_axis(const StudyAxis& axis) {
   return made;
 }
 
+// As small as it must be, and words shortened.
 void draw_square_text(Canvas& canvas, const Square& square, const Eigen::Vector2d& middle,
                       const Eigen::Vector2d& extent) {
-  const double needed = text_width(square.text, kCellText);
-  double size = kCellText;
-  if (square.is_number) {
-    size *= std::min({1.0, extent.x() / needed, extent.y() / kCellText});
-  } else if (extent.x() < std::min(kLeastText, needed) || extent.y() < kCellText) {
-    return;  // the colour says it alone
-  }
-  const std::string text =
-      square.is_number ? square.text : shortened(square.text, kCellText, extent.x());
+  const double needed = text_width(square.text, 1.0);
+  const double fitting = std::min({kCellText, extent.x() / needed, extent.y()});
+  if (fitting < kLeastText && !square.may_be_cut) return;
+  const double size = std::max(fitting, std::min({kLeastText, 0.5 * extent.x(), extent.y()}));
+  const std::string text = shortened(square.text, size, extent.x());
   canvas.text(text, middle + Eigen::Vector2d(0.0, 0.35 * size),
               {size, square.shade.ink, TextAlign::centre});
 }

@@ -153,6 +153,28 @@ TEST(RegimeMap, ChoicesOfManyEstimatorsHaveNumbers) {
   EXPECT_THAT(many, AllOf(HasSubstr(" 9 iterated 10 a&b_<c>% 11 graph "), HasSubstr(" 9 9 ")));
 }
 
+// In squares that hold no name it is smaller and shortened.
+TEST(RegimeMap, EveryChoiceIsNamed) {
+  const TemporaryFolder folder;
+  FixtureOptions options;
+  options.separations.clear();
+  options.noises = {"low", "high"};
+  for (int i = 1; i <= 12; ++i) options.separations.push_back(std::to_string(i));
+  const StudyResults results = results_of(folder, options);
+  const ResultStore store = ResultStore::open(folder / "study");
+  const auto series = study_series(store, results);
+  const auto examples = example_trials(store, results);
+  std::size_t names = 0;
+  for (const StudyFigure& figure : study_figures({results, series, examples})) {
+    if (figure.name != "regime_map") continue;
+    const PageSize page{kFigureWidth, figure.height};
+    const auto texts = texts_of(page, figure.draw);
+    expect_tidy(texts, page);
+    for (const PlacedText& one : texts) names += one.text.starts_with("it") ? 1 : 0;
+  }
+  EXPECT_EQ(names, 24u + 2u);  // a heading and the legend
+}
+
 // Dead reckoning has no F above the optimum: what is not drawn is in no legend.
 TEST(RegimeMap, FiguresOfASweepNameThoseThatTheyDraw) {
   const TemporaryFolder folder;
