@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/output.hpp"
 #include "fathom/core/text.hpp"
 
 namespace fathom {
@@ -13,8 +14,8 @@ namespace {
 [[noreturn]] void refuse(const std::string& name, const std::string& kind, Range range,
                          const std::string& given) {
   const std::string bounds = range.text();
-  throw InputError(fmt::format("{}: expected {}{}, got {} (see --help)", name, kind,
-                               bounds.empty() ? "" : " " + bounds, in_quotes(given)));
+  throw FlagError(fmt::format("{}: expected {}{}, got {}", name, kind,
+                              bounds.empty() ? "" : " " + bounds, in_quotes(given)));
 }
 
 double real_of(const std::string& name, Range range, const std::string& text) {
@@ -33,7 +34,7 @@ int integer_of(const std::string& name, Range range, const std::string& text) {
 
 // An empty word is the slip of a script, such as a variable that is not set.
 const std::string& word_of(const std::string& name, const std::string& text) {
-  if (text.empty()) throw InputError(name + ": expected a word, got '' (see --help)");
+  if (text.empty()) throw FlagError(name + ": expected a word, got ''");
   // An empty variable of the shell before it, most often.
   if (text.starts_with("--")) {
     throw InputError(name + ": expected a word, got the flag " + in_quotes(text) +
@@ -45,9 +46,7 @@ const std::string& word_of(const std::string& name, const std::string& text) {
 CLI::Validator one_of(const std::string& name, const std::vector<std::string>& choices) {
   const auto refusal = [name, choices](const std::string& given) -> std::string {
     if (std::ranges::find(choices, given) != choices.end()) return "";
-    throw InputError(fmt::format("{}: expected one of {}, got {}{} (see --help)", name,
-                                 joined(choices, ", "), in_quotes(given),
-                                 suggestion(given, choices)));
+    throw FlagError(name + ": " + not_one_of(given, choices));
   };
   return {refusal, "{" + joined(choices, ",") + "}"};
 }
@@ -184,6 +183,10 @@ Flag Command::integers(const std::string& name, std::vector<std::size_t>& field,
 
 Flag Command::boolean(const std::string& name, bool& field, const std::string& help) {
   return Flag(*command_->add_flag(name, field, help));
+}
+
+void Command::quiet() {
+  command_->add_flag_callback("--quiet", print_nothing, "No output but errors");
 }
 
 std::vector<std::string> Command::given() const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/core/input_error.hpp"
 #include "fathom/core/options.hpp"
 
 namespace CLI {
@@ -14,6 +15,12 @@ class Option;
 }  // namespace CLI
 
 namespace fathom {
+
+/// A bad value of a flag: --help of the command says more.
+class FlagError : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// One flag of a command, to say more of it.
 class Flag {
@@ -31,7 +38,7 @@ class Flag {
 
 /// A command of the program with its arguments and flags, bound to fields that must outlive the
 /// parsing. A field's value is the default that --help shows. Numbers are read by parse_real and
-/// parse_integer, as those of files are: `010` is ten. A bad value throws InputError with the flag,
+/// parse_integer, as those of files are: `010` is ten. A bad value throws FlagError with the flag,
 /// what was given and what would be right. CLI11 is behind this, in one file: it takes seconds to
 /// compile.
 class Command {
@@ -73,6 +80,8 @@ class Command {
   Flag integers(const std::string& name, std::vector<std::size_t>& field, Range range,
                 const std::string& value_name, const std::string& help);
   Flag boolean(const std::string& name, bool& field, const std::string& help);
+  /// --quiet, of a command whose output is what it prints: print() says nothing.
+  void quiet();
 
   /// The flags that were given, by their names.
   std::vector<std::string> given() const;

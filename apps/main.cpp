@@ -1,5 +1,6 @@
 // The command line. Every command is a file of its own; input errors become one line and status 2.
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -9,7 +10,9 @@
 #include <glog/logging.h>
 #include <iostream>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
@@ -38,6 +41,17 @@ std::string joined(int argc, char** argv) {
   std::string line = "fathom";
   for (int i = 1; i < argc; ++i) line += " " + shell_word(argv[i]);
   return line;
+}
+
+// The last one first, as CLI11 has them. "help" and "help run" are "--help" and "run --help".
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  std::ranges::reverse(words);
+  return words;
 }
 
 // One line, whatever the names in it hold.
@@ -84,7 +98,10 @@ int main_function(int argc, char** argv) {
     add(app, context);
   }
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words = words_of(argc, argv);
+    app.parse(words);
+  } catch (const FlagError& error) {
+    return refused(with_help(app, error.what()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     return refused(parse_error_text(app, error, argc > 1 ? argv[1] : ""));

@@ -83,17 +83,21 @@ std::string of_command(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
+std::string with_help(const CLI::App& program, const std::string& text) {
+  return fmt::format("{} (see fathom {} --help)", text,
+                     program.get_subcommands().front()->get_name());
+}
+
 std::string parse_error_text(const CLI::App& program, const CLI::ParseError& error,
                              const std::string& first) {
   if (const auto commands = program.get_subcommands(); !commands.empty()) {
-    const CLI::App& command = *commands.front();
-    return fmt::format("{} (see fathom {} --help)", of_command(command, error), command.get_name());
+    return with_help(program, of_command(*commands.front(), error));
   }
   if (first.empty()) return "a command is missing (fathom --help lists them)";
   if (is_flag(first)) {
     return unknown_flag(first, {"--help", "--version"}) + " (see fathom --help)";
   }
-  std::vector<std::string> names;
+  std::vector<std::string> names{"--version"};
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   return fmt::format("unknown command {}{} (fathom --help lists them)", in_quotes(first),
                      suggestion(first, names));

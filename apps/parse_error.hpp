@@ -15,4 +15,7 @@ namespace fathom {
 std::string parse_error_text(const CLI::App& program, const CLI::ParseError& error,
                              const std::string& first);
 
+/// The text, and where the command that was given says more.
+std::string with_help(const CLI::App& program, const std::string& text);
+
 }  // namespace fathom

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/flags.hpp"
+#include "fathom/core/options.hpp"
 #include "fathom/geometry/plane.hpp"
 #include "fathom/geometry/trajectory_file.hpp"
 
@@ -13,12 +14,12 @@ namespace fathom {
 template <class Value>
 Value named(const std::string& flag, const std::string& name,
             const std::vector<std::pair<std::string, Value>>& names) {
-  std::string all;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].first == name) return names[i].second;
-    all += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i].first;
+  std::vector<std::string> all;
+  for (const auto& [word, value] : names) {
+    if (word == name) return value;
+    all.push_back(word);
   }
-  throw InputError(flag + ": expected " + all + ", got '" + name + "'");
+  throw InputError(flag + ": " + not_one_of(name, all));
 }
 
 /// How a trajectory is to be read, as flags say it.

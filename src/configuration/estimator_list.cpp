@@ -68,6 +68,7 @@ EstimatorValues estimator_values(const Settings& settings, const EstimatorEntry&
   for (const Setting& setting : settings.all()) {
     const std::string full = prefix + setting.key;
     if (std::find(known.begin(), known.end(), full) == known.end()) {
+      known.push_back(prefix + "name");
       refuse(setting, "unknown key '" + full + "' of " + entry.name + suggestion(full, known));
     }
     values[setting.key] = setting.value;

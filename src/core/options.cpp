@@ -37,8 +37,13 @@ std::string Range::text() const {
 }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& among) {
-  const auto near = nearest(word, among);
-  return near ? "; did you mean '" + *near + "'?" : "";
+  const std::vector<std::string> near = nearest(word, among);
+  return near.empty() ? "" : "; did you mean '" + joined(near, "' or '") + "'?";
+}
+
+std::string not_one_of(const std::string& word, const std::vector<std::string>& choices) {
+  return "expected one of " + joined(choices, ", ") + ", got " + in_quotes(word) +
+         suggestion(word, choices);
 }
 
 void OptionTable::add(const std::string& key, OptionDescription description, Setter setter,
@@ -144,8 +149,7 @@ void OptionTable::add_choice(const std::string& key, std::string current,
           assign(place, choices[place]);
           return;
         }
-        throw InputError(option.key + ": expected one of " + joined(choices, ", ") + ", got " +
-                         in_quotes(value.text()) + suggestion(value.text(), choices));
+        throw InputError(option.key + ": " + not_one_of(value.text(), choices));
       },
       [present] { return *present; });
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <utility>
 
 namespace fathom {
 
@@ -170,16 +171,19 @@ std::string seconds_text(std::int64_t nanoseconds) {
 
 namespace {
 
+// Of letters that are added, left out, exchanged for another, or two that have changed places.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
+  std::vector<std::size_t> above;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    const std::vector<std::size_t> second = std::exchange(above, row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min(substituted, std::min(row[j], row[j - 1]) + 1);
+      const std::size_t substituted = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({substituted, above[j] + 1, row[j - 1] + 1});
+      const bool is_swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (is_swapped) row[j] = std::min(row[j], second[j - 2] + 1);
     }
   }
   return row[b.size()];
@@ -194,19 +198,35 @@ std::size_t least_edit_distance(std::string_view a, std::string_view b) {
   return std::max(a.size(), b.size()) - shared;
 }
 
+// What both begin with, up to a dot or hyphen: it is right, and tells nothing of the rest.
+std::size_t common_groups(std::string_view a, std::string_view b) {
+  const auto differ = std::ranges::mismatch(a, b).in1;
+  const std::string_view common = a.substr(0, static_cast<std::size_t>(differ - a.begin()));
+  return common.find_last_of(".-") + 1;
+}
+
 }  // namespace
 
-std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& among) {
-  std::optional<std::string> best;
-  // Beyond two letters in five it is another word, not a misspelt one.
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() * 2 / 5) + 1;
+std::vector<std::string> nearest(std::string_view word, const std::vector<std::string>& among) {
+  std::vector<std::string> best;
+  std::size_t best_distance = word.size();
   for (const std::string& candidate : among) {
-    if (least_edit_distance(word, candidate) >= best_distance) continue;
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
+    const std::size_t common = common_groups(word, candidate);
+    const std::string_view given = word.substr(common);
+    const std::string_view right = std::string_view(candidate).substr(common);
+    const auto [shorter, longer] = std::minmax({given.size(), right.size()});
+    // Beyond two letters in five it is another word, not a misspelt one; but one that was not
+    // written to its end has one slip.
+    const bool is_begun = right.starts_with(given);
+    const std::size_t limit = std::max<std::size_t>(longer * 2 / 5, is_begun ? 1 : 0);
+    if (longer - shorter > limit) continue;  // so many letters are added at least
+    const std::size_t most = std::min(limit, best_distance);
+    if (!is_begun && least_edit_distance(given, right) > most) continue;
+    const std::size_t distance = is_begun ? 1 : edit_distance(given, right);
+    if (distance > most) continue;
+    if (distance < best_distance) best.clear();
+    best_distance = distance;
+    best.push_back(candidate);
   }
   return best;
 }

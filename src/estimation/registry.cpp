@@ -34,7 +34,7 @@ const EstimatorEntry& EstimatorRegistry::find(const std::string& name) const {
   for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
   const std::string hint = suggestion(name, names);
   throw InputError("unknown estimator '" + name + "'" +
-                   (hint.empty() ? "; there are " + known : hint));
+                   (hint.empty() ? "; there are " + known + ", and those of --plugin FILE" : hint));
 }
 
 }  // namespace fathom

@@ -92,8 +92,10 @@ TEST_F(Commands, ConvertRefusesWhatItCannotDo) {
   EXPECT_THAT(refused("none", "tum"), HasSubstr("none: cannot be opened"));
   EXPECT_THAT(refused("empty.tum", "kitti"), HasSubstr("empty.tum: holds no pose"));
   EXPECT_THAT(refused("t.csv", "tum", {"--from", "kitti"}), HasSubstr("t.csv:2: expected the 12"));
-  EXPECT_THAT(refused("t.csv", "tum", {"--from", "csv"}), HasSubstr("--from: expected tum, kitti"));
-  EXPECT_THAT(refused("t.csv", "tum", {"--plane", "zz"}), HasSubstr("expected xy, xz, yz or fit"));
+  EXPECT_THAT(refused("t.csv", "tum", {"--from", "csv"}),
+              HasSubstr("--from: expected one of tum, kitti"));
+  EXPECT_THAT(refused("t.csv", "tum", {"--plane", "zz"}),
+              HasSubstr("expected one of xy, xz, yz, fit"));
   EXPECT_THAT(refused("t.csv", "tum", {"--plane", "fit"}), HasSubstr("lie on a line"));
   EXPECT_THAT(refused("g.g2o", "toro", {"--plane", "xy"}), HasSubstr("--plane: is for traj"));
   EXPECT_THAT(refused("k.txt", "tum", {"--times-out", "times"}), HasSubstr("has no times"));

@@ -116,13 +116,39 @@ TEST(InQuotes, IsFitForOneLine) {
   EXPECT_EQ(in_quotes(std::string(59, 'x') + "éé"), "'" + std::string(59, 'x') + "…'");
 }
 
-TEST(Nearest, IsAMisspeltWordOrNothing) {
-  const std::vector<std::string> keys{"max_iterations", "tolerance", "gate_probability"};
-  EXPECT_EQ(nearest("max_iteration", keys), "max_iterations");
-  EXPECT_EQ(nearest("tolerence", keys), "tolerance");
-  EXPECT_EQ(nearest("gate_probabilty", keys), "gate_probability");
-  EXPECT_FALSE(nearest("something_else_altogether", keys));
-  EXPECT_FALSE(nearest("x", {}));
+TEST(Nearest, AreWordsOfWhichItMayBeAMisspelling) {
+  using Words = std::vector<std::string>;
+  struct Case {
+    const char* word;
+    Words among;
+    Words expected;
+  };
+  const Words options{"max_iterations", "tolerance", "gate_probability"};
+  const Words of_data{"dataset.altitudes", "dataset.start.x_m", "dataset.altitude_m"};
+  const Words flags{"--help", "--list", "--set", "--seed", "--quiet"};
+  for (const auto& [word, among, expected] : std::vector<Case>{
+           {"max_iteration", options, {"max_iterations"}},
+           {"tolerence", options, {"tolerance"}},
+           {"gate_probabilty", options, {"gate_probability"}},
+           {"something_else_altogether", options, {}},
+           {"x", {}, {}},
+           {"orign", {"none", "origin", "se2", "yaw"}, {"origin"}},
+           {"euroq", {"tum", "kitti", "euroc"}, {"euroc"}},
+           {"xzz", {"xy", "xz", "yz", "fit"}, {"xz"}},
+           {"q", {"x", "y", "z"}, {}},
+           {"versoin", {"run", "init", "--version"}, {"--version"}},
+           {"estimators.0.nam", {"estimators.0.type", "estimators.0.name"}, {"estimators.0.name"}},
+           {"dataset.altitude", of_data, {"dataset.altitudes", "dataset.altitude_m"}},
+           {"dataset.altitude_m", {"dataset.start.x_m", "dataset.sigma_m"}, {}},
+           {"datset.altitude_m", of_data, {"dataset.altitude_m"}},
+           {"--qiet", flags, {"--quiet"}},
+           {"--qiet", {"--help", "--list"}, {}},
+           {"--ot", flags, {}},
+           {"--ot", {"--set", "--out"}, {"--out"}},
+           {"0.0", {"0.01", "0.1"}, {"0.01"}},
+           {"efk", {"ekf", "trajectory_iekf"}, {"ekf"}}}) {
+    EXPECT_EQ(nearest(word, among), expected) << word;
+  }
 }
 
 }  // namespace

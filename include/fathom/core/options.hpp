@@ -132,7 +132,10 @@ class OptionTable {
   std::vector<Getter> getters_;
 };
 
-/// "; did you mean 'x'?" or nothing.
+/// "; did you mean 'x'?", of several that are as near "'x' or 'y'", or nothing.
 std::string suggestion(const std::string& word, const std::vector<std::string>& among);
+
+/// "expected one of x, y, got 'z'", and a suggestion.
+std::string not_one_of(const std::string& word, const std::vector<std::string>& choices);
 
 }  // namespace fathom

@@ -98,7 +98,7 @@ std::string short_number(double value, int digits = 3);
 /// Nanoseconds as decimal seconds, digit by digit: a double would lose them.
 std::string seconds_text(std::int64_t nanoseconds);
 
-/// The candidate with the least edit distance, if it is near enough to be a misspelling.
-std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& among);
+/// Those of which it may be a misspelling: all of the least edit distance, if that is small.
+std::vector<std::string> nearest(std::string_view word, const std::vector<std::string>& among);
 
 }  // namespace fathom
