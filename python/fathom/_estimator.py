@@ -1,14 +1,18 @@
 """Estimators in Python: the base class, and what is found out about a subclass."""
 
 import importlib.util
+import inspect
 import pathlib
 import re
 import sys
+import warnings
 from dataclasses import dataclass
 from typing import Any, Optional, Sequence
 
-from ._fathom import InputError
+from ._fathom import InputError, _suggestion
 from ._sources import code_of, note_definition, require_own_imports
+
+_REQUIRED = ("__init__", "pose", "add_keyframe", "update")
 
 
 @dataclass(frozen=True)
@@ -119,10 +123,31 @@ class Estimator:
         return []
 
 
+def _require_methods(cls):
+    """Those that a subclass writes; and warns of what looks like another, misspelt."""
+    missing = [
+        name
+        for name, of_base in vars(Estimator).items()
+        if inspect.isfunction(of_base) and getattr(cls, name) is of_base
+    ]
+    slips = [
+        f"{cls.__qualname__}: has a method '{name}'{near}"
+        for name in dir(cls)
+        if not (name.startswith("_") or hasattr(Estimator, name)) and callable(getattr(cls, name))
+        if (near := _suggestion(name, missing))
+    ]
+    needed = [name for name in _REQUIRED if name in missing]
+    if needed:
+        raise InputError("; ".join([f"{cls.__qualname__}: has no {', '.join(needed)}", *slips]))
+    for slip in slips:
+        warnings.warn(slip)
+
+
 def described(cls) -> dict:
     """What the registry is told of a subclass of Estimator."""
     if not (isinstance(cls, type) and issubclass(cls, Estimator)):
         raise InputError(f"{cls!r} is no subclass of fathom.Estimator")
+    _require_methods(cls)
     if not isinstance(cls.options, dict):
         raise InputError(f"{cls.__qualname__}.options: expected a dict")
     for what in ("name", "help"):

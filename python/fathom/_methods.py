@@ -2,6 +2,13 @@
 
 from . import _display, _fathom, _frames, _plot
 
+
+def _missing(thing, name):
+    """Of an attribute that is not there."""
+    near = "" if name.startswith("_") else _fathom._suggestion(name, dir(thing))
+    raise AttributeError(f"'{type(thing).__name__}' has no attribute '{name}'{near}")
+
+
 for _of in (
     _fathom.AbsolutePose,
     _fathom.MeasurementLog,
@@ -14,6 +21,7 @@ for _of in (
     _fathom.Solution,
 ):
     _of.__repr__ = _display.text_of
+    _of.__getattr__ = _missing
 
 _fathom.MeasurementLog._repr_html_ = _display.html_of_log
 _fathom.Measurements._repr_html_ = _display.html_of_measurements

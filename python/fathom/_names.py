@@ -41,6 +41,15 @@ class Named(dict):
         raise unknown(self._kind, name, self)
 
 
+def shown(value) -> str:
+    """What was given in place of something else."""
+    if isinstance(value, type):
+        return f"the class {value.__qualname__}"
+    if value is None or isinstance(value, (bool, int, float, str)):
+        return repr(value)
+    return f"an object of {type(value).__qualname__}"
+
+
 def number_or_text(label):
     """A value of an axis as a number, where it is one."""
     try:

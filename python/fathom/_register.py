@@ -1,6 +1,13 @@
 """Registration of two pictures."""
 
+import math
+import numbers
+
+import numpy
+
 from . import _fathom
+from ._fathom import InputError
+from ._names import shown
 from ._settings import settings_of
 
 
@@ -17,6 +24,15 @@ def register(
         front_end.registration.covariance.tilt_sigma_rad.
     Returns a Registration; raises InputError.
     """
+    for of, picture, altitude in (("a", a, altitude_a), ("b", b, altitude_b)):
+        if not isinstance(picture, numpy.ndarray):
+            raise InputError(f"{of}: expected an array of H x W uint8, got {shown(picture)}")
+        if not (isinstance(altitude, numbers.Real) and 0 < altitude < math.inf):
+            raise InputError(
+                f"altitude_{of}: expected a number of metres above 0, got {shown(altitude)}"
+            )
+    if not (isinstance(seed, numbers.Integral) and 0 <= seed < 2**64):
+        raise InputError(f"seed: expected a whole number from 0, got {shown(seed)}")
     return _fathom._register(
         a,
         b,

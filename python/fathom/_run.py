@@ -4,13 +4,22 @@ import os
 
 from . import _fathom
 from ._estimator import described
-from ._fathom import _Registry
+from ._fathom import InputError, MeasurementLog, _Registry
+from ._names import shown
 from ._progress import heard_by
-from ._settings import Asked, files_of, is_estimator, settings_of
+from ._settings import (
+    Asked,
+    changes_of,
+    files_of,
+    is_estimator,
+    require_name_or_class,
+    settings_of,
+)
 
 
 def _registry_with(estimator, plugins=()):
     """The registry, and the name that the estimator has in it."""
+    require_name_or_class(estimator, "estimator")
     _fathom._load_plugins(files_of(plugins))
     registry = _Registry()
     return registry, registry.add(estimator) if is_estimator(estimator) else estimator
@@ -54,6 +63,8 @@ def solve(
     Other keywords, and the dict `options`, are the estimator's options. Returns a Solution; raises
     InputError.
     """
+    if not isinstance(log, MeasurementLog):
+        raise InputError(f"log: expected a MeasurementLog, as of read_g2o(FILE), got {shown(log)}")
     values = {**(options or {}), **values}
     if isinstance(start, str):
         values["start"], start = start, None
@@ -87,9 +98,9 @@ def run(
     progress: as of `solve`.
     Returns a Solution.
     """
-    changes = dict(set)
     if estimator is not None:
-        changes["estimator.type"] = estimator
+        require_name_or_class(estimator, "estimator")
+    changes = changes_of(set, **{"estimator.type": estimator})
     asked = Asked(config, changes, plugins, "the configuration")
     folder = None if not cache else "" if cache is True else os.fspath(cache)
     out = os.fspath(out) if out else ""

@@ -3,9 +3,11 @@
 import json
 import os
 import pathlib
+from collections.abc import Iterable
 
 from ._estimator import Estimator, described
 from ._fathom import InputError, _Registry, _Settings
+from ._names import shown
 
 _DEEPEST = 32
 
@@ -27,6 +29,8 @@ class Asked:
     def __init__(self, config, changes, plugins, what, added=()):
         self._what = what
         self.file = ""
+        if config == {} and not changes:  # as an empty file is
+            raise InputError(f"{what}: is empty; expected keys")
         if isinstance(config, dict):
             self.settings = _Settings()
             self.put(config)
@@ -45,17 +49,8 @@ class Asked:
         self._add(added)
 
     def _add(self, estimators):
-        """To the list of a study. One without a list has all that are known, classes among them,
-        unless others are given: then it has what is given."""
-        for one in estimators:
-            if not (isinstance(one.get("type"), str) or is_estimator(one.get("type"))):
-                raise InputError(
-                    f"estimators: {one.get('type')!r} is neither a name nor a subclass of "
-                    "fathom.Estimator"
-                )
+        """To the list of a study."""
         first = self.settings.estimator_count()
-        if first == 0 and all(is_estimator(one["type"]) and len(one) == 1 for one in estimators):
-            return
         for i, one in enumerate(estimators):
             self.put({f"estimators.{first + i}": one})
 
@@ -65,6 +60,34 @@ class Asked:
     @property
     def title(self) -> str:
         return pathlib.Path(self.file).stem if self.file else "study"
+
+
+def listed(estimators) -> list:
+    """Estimators to add to those of a study, each a dict. None: none; one may stand alone."""
+    if estimators is None:
+        return []
+    if isinstance(estimators, (str, dict)) or not isinstance(estimators, Iterable):
+        estimators = [estimators]
+    items = [one if isinstance(one, dict) else {"type": one} for one in estimators]
+    if not items:
+        raise InputError("estimators: is empty; without it a study has its own, or all known ones")
+    for one in items:
+        require_name_or_class(one.get("type"), "estimators")
+    return items
+
+
+def changes_of(given, **more) -> dict:
+    """The settings `set`, and those of others that are not None."""
+    if not isinstance(given, dict):
+        raise InputError(f"set: expected a dict as {{'seed': 3}}, got {shown(given)}")
+    return {**given, **{key: value for key, value in more.items() if value is not None}}
+
+
+def require_name_or_class(estimator, what):
+    if not (isinstance(estimator, str) or is_estimator(estimator)):
+        raise InputError(
+            f"{what}: expected a name or a subclass of fathom.Estimator, got {shown(estimator)}"
+        )
 
 
 def files_of(plugins) -> list:

@@ -7,12 +7,12 @@ import tempfile
 from . import _fathom
 from ._progress import heard_by
 from ._results import Results
-from ._settings import Asked
+from ._settings import Asked, changes_of, listed
 
 
 def compare(
     study,
-    estimators=(),
+    estimators=None,
     *,
     set={},
     plugins=(),
@@ -27,9 +27,9 @@ def compare(
     """Runs a study, as `fathom compare` does, and goes on with one that was stopped.
 
     study: a YAML file, a folder of pictures, or a dict of the same keys.
-    estimators: names, subclasses of fathom.Estimator, or dicts of type, name and options, that
-        stand beside those of the study. A study without a list has these; where all are classes,
-        it has the known ones, too.
+    estimators: a list of names, subclasses of fathom.Estimator, or dicts of type, name and
+        options, or one of these. They stand beside those that the study lists; if it lists none,
+        they are all that it has. None: those of the study, or all that are known.
     set: a dict of settings that replace those of the study; a list replaces a list as a whole.
     out: its folder; without one, a temporary folder that goes with the results.
     cache: folder of the registrations that are kept; True: the usual one, None: none.
@@ -38,12 +38,8 @@ def compare(
         step, steps, left_s.
     Returns Results; raises InputError.
     """
-    changes = dict(set)
-    for key, value in (("surveys", surveys), ("trials", trials), ("jobs", jobs)):
-        if value is not None:
-            changes[key] = value
-    added = [one if isinstance(one, dict) else {"type": one} for one in estimators]
-    asked = Asked(study, changes, plugins, "the study", added)
+    changes = changes_of(set, surveys=surveys, trials=trials, jobs=jobs)
+    asked = Asked(study, changes, plugins, "the study", listed(estimators))
     temporary = tempfile.mkdtemp(prefix="fathom-") if out is None else None
     out = os.path.join(temporary, "study") if out is None else os.fspath(out)
     folder = None if not cache else "" if cache is True else os.fspath(cache)

@@ -8,6 +8,7 @@
 
 #include "fathom/core/files.hpp"
 #include "fathom/core/input_error.hpp"
+#include "fathom/core/options.hpp"
 #include "fathom/core/text.hpp"
 #include "fathom/evaluation/accuracy.hpp"
 #include "fathom/evaluation/consistency.hpp"
@@ -25,12 +26,12 @@ namespace {
 namespace py = pybind11;
 
 Alignment alignment_of(const std::string& name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const auto& [word, alignment] : alignment_names()) {
     if (word == name) return alignment;
-    known += (known.empty() ? "" : ", ") + word;
+    known.push_back(word);
   }
-  throw InputError("alignment: expected " + known + ", got '" + name + "'");
+  throw InputError("alignment: " + not_one_of(name, known));
 }
 
 py::dict evaluate_poses(const py::object& estimate, const py::object& reference,

@@ -66,6 +66,11 @@ void decide_all(const py::object& given, Outcome outcome, std::vector<Decision>&
 }
 
 UpdateReport report_without_decisions(const py::object& given) {
+  if (!py::hasattr(given, "outcome")) {
+    throw InputError("returned an object of " +
+                     py::type::of(given).attr("__qualname__").cast<std::string>() +
+                     ", expected an UpdateReport or None");
+  }
   UpdateReport report;
   report.outcome = outcome_of(given.attr("outcome"));
   report.iterations = given.attr("iterations").cast<int>();

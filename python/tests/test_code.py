@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 import fathom
+import misbehaving
 import numpy
 
 STUDY = {"dataset": {"type": "simulated_log"}, "estimators": [{"type": "ekf"}]}
@@ -200,7 +201,7 @@ class Inputs(unittest.TestCase):
 
     def test_options_are_described_as_they_should_be(self):
         def with_options(given):
-            return type("Odd", (fathom.Estimator,), {"options": given})
+            return type("Odd", (misbehaving.Follows,), {"options": given})
 
         for given in ({"n": 2**40}, {"n": fathom.Option(1, help=None)}, {5: 1}):
             self.refused("option .*type", lambda: fathom.options(with_options(given)))

@@ -94,8 +94,13 @@ class CommandLine(unittest.TestCase):
             ("x = 1\n", "defines no subclass of fathom.Estimator"),
             ("import sys\nsys.exit(1)\n", "SystemExit: 1"),
             (
-                "import fathom\nclass Ekf(fathom.Estimator):\n    pass\n",
+                "import fathom\nclass Ekf(fathom.Estimator):\n"
+                "    __init__ = pose = add_keyframe = update = len\n",
                 "estimator 'ekf': the name is taken",
+            ),
+            (
+                "import fathom\nclass Mine(fathom.Estimator):\n    pose = len\n",
+                "Mine: has no __init__, add_keyframe, update",
             ),
         ]
         for text, expected in cases:

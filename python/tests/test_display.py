@@ -7,6 +7,7 @@ import unittest
 import xml.etree.ElementTree
 
 import fathom
+import misbehaving
 import numpy
 from small_study import FAILING, STUDY
 
@@ -120,7 +121,7 @@ class Html(unittest.TestCase):
         self.assertIn(f"<td>ekf</td><td>2/3</td><td>{errors.mean():.4g}</td>", text)
 
     def test_what_an_estimator_says_is_escaped(self):
-        class Raises(fathom.Estimator):
+        class Raises(misbehaving.Follows):
             def __init__(self, setup):
                 raise ValueError("<script>alert(1)</script>")
 

@@ -83,7 +83,7 @@ class Evaluation(unittest.TestCase):
         self.assertEqual(aligned["anees"], judged["anees"])
         with self.assertRaises(fathom.InputError):
             fathom.evaluate(estimate, reference[:2])
-        with self.assertRaisesRegex(fathom.InputError, "expected none, origin, se2"):
+        with self.assertRaisesRegex(fathom.InputError, "expected one of none, origin, se2"):
             fathom.evaluate(estimate, reference, alignment="scale")
         with self.assertRaisesRegex(fathom.InputError, "expected shape"):
             fathom.evaluate(estimate[:, :2], reference)

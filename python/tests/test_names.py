@@ -32,7 +32,7 @@ class Names(unittest.TestCase):
             ("ekf", lambda: results.metric("anees", "ekff")),
             ("dead_reckoning", lambda: results.metric("anees", "dead_reckonin")),
             ("noise", lambda: results.metric("anees", "ekf", {"nois": 0.01})),
-            ("0.01", lambda: results.metric("anees", "ekf", {"noise": "0.0", "loops": 1})),
+            ("0.01", lambda: results.metric("anees", "ekf", {"noise": "0.011", "loops": 1})),
             ("pose_nees", lambda: series("pose_ness", "ekf")),
             ("ekf", lambda: series("pose_nees", "efk")),
             ("trial", lambda: results.rows[0]["trail"]),

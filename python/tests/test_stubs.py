@@ -10,6 +10,7 @@ from fathom import _fathom
 
 STUB = os.path.join(os.path.dirname(fathom.__file__), "_fathom.pyi")
 OF_EVERY_OBJECT = set(dir(object)) | {"__module__", "__dict__", "__weakref__", "__annotations__"}
+OF_EVERY_OBJECT |= {"__getattr__"}  # to a type checker every name would be one
 OF_EXCEPTIONS = set(dir(ValueError))
 
 

@@ -72,10 +72,6 @@ class Dicts(unittest.TestCase):
             self.assertEqual(results.configuration["estimators.1.max_iterations"], "1")
             self.assertEqual(results.estimators, ["ekf", "trajectory_iekf"])
 
-    def test_a_class_needs_the_base(self):
-        with self.assertRaises(fathom.InputError):
-            fathom.compare({"dataset": {"type": "simulated_log"}}, estimators=[int])
-
     def test_values_of_numpy_and_paths(self):
         graph = pathlib.Path(tempfile.mkdtemp()) / "graph.g2o"
         log = fathom.MeasurementLog((numpy.float64(1), 2, 3))
