@@ -17,12 +17,21 @@ struct CacheCommandFlags {
   bool clear = false;
 };
 
+// A name that is misspelt is no empty cache.
+void require_cache(const std::filesystem::path& folder) {
+  if (cache_content(folder).bytes > 0) return;
+  std::error_code error;
+  if (std::filesystem::is_directory(folder) && std::filesystem::is_empty(folder, error)) return;
+  throw InputError(folder.string(), "is no cache; expected the folder of --cache or FATHOM_CACHE");
+}
+
 void show_or_clear(const CacheCommandFlags& flags, Context& context) {
   const bool is_usual = flags.folder.empty();
   const std::filesystem::path folder =
       is_usual ? default_cache_folder() : std::filesystem::path(flags.folder);
   if (folder.empty())
     throw InputError("no folder for the cache of registrations; set FATHOM_CACHE");
+  if (!is_usual) require_cache(folder);
   if (flags.clear) clear_cache(folder);
   const CacheContent content = cache_content(folder);
   const std::string bound = is_usual
@@ -48,6 +57,7 @@ void add_cache(CLI::App& program, Context& context) {
   command.text("--cache", flags->folder, "DIR",
                "Its folder (default: $FATHOM_CACHE, or ~/.cache/fathom)");
   command.boolean("--clear", flags->clear, "Remove all of them");
+  command.quiet();
   command.on_run([flags, &context] { show_or_clear(*flags, context); });
 }
 

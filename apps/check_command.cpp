@@ -83,10 +83,10 @@ void check_configuration(const std::string& path, const CommonFlags& common,
     const Study study = configure_study(settings, registry);
     configuration = study.cells.front();
     const StudyDescription& described = study.description;
-    print("study for 'compare': %zu cells, each %s\n", study.cells.size(),
+    print("study for 'compare': %s, each %s\n", counted(study.cells.size(), "cell").c_str(),
           repeats_text(described.repetition_of(0), described.surveys, described.trials).c_str());
     for (const StudyAxis& axis : study.description.axes) {
-      print("  swept %s: %zu values\n", axis.key.c_str(), axis.labels.size());
+      print("  swept %s: %s\n", axis.key.c_str(), counted(axis.labels.size(), "value").c_str());
     }
   } else {
     configuration = configure(settings, ConfigurationKind::single, registry);
@@ -141,6 +141,11 @@ void check(const CheckFlags& flags, Context& context) {
   }
   if (ending == ".bag" || ending == ".db3" || ending == ".mcap") {
     throw InputError(path, "is a bag; fathom import makes a folder of it that can be checked");
+  }
+  if (ending == ".json") {
+    throw InputError(path,
+                     "is JSON; expected a folder, a configuration (.yaml), a trajectory or a "
+                     "pose graph");
   }
   const bool may_be_trajectory = ending == ".tum" || ending == ".txt" || ending == ".csv";
   if (may_be_trajectory && !is_graph(read_text(path))) {

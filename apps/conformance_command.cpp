@@ -129,6 +129,7 @@ void add_conformance(CLI::App& program, Context& context) {
                                                 "Estimators; none: those of --plugin, or all");
   add_plugins_to(command, flags->plugins);
   command.boolean("--list", flags->list, "The clauses and their rules").excludes(names);
+  command.quiet();
   command.on_run([flags, &context] { judge(*flags, context); });
 }
 

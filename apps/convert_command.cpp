@@ -27,7 +27,6 @@ struct ConvertFlags {
   TrajectoryFlags trajectory;
   std::string times_out;
   ConversionOptions graph;
-  bool quiet = false;
 };
 
 // What is said once all is written.
@@ -145,7 +144,6 @@ void convert(const ConvertFlags& flags, Context& context) {
   }
   const Notes notes = to_graph ? convert_graph_file(flags) : convert_trajectory_file(flags);
   context.status = kDone;
-  if (flags.quiet) return;
   for (const std::string& note : notes) print("%s\n", note.c_str());
   print("wrote %s\n", flags.out.c_str());
   if (!flags.times_out.empty()) print("      %s\n", flags.times_out.c_str());
@@ -178,7 +176,7 @@ void add_convert(CLI::App& program, Context& context) {
   command.boolean("--drop-landmarks", flags->graph.drop_landmarks,
                   "Leave out landmarks and what poses see of them");
   add_drop_self_edges_to(command, flags->graph.drop_self_edges);
-  command.boolean("--quiet", flags->quiet, "No output but errors");
+  command.quiet();
   command.on_run([flags, &context] { convert(*flags, context); });
 }
 

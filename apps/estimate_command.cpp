@@ -37,7 +37,7 @@ std::string request_of(const workflow::Demand& demand, std::size_t shards) {
 void print_demand(const workflow::Demand& demand, int shards) {
   Table table({"", "processor hours", "disk (MiB)", "of"});
   table.add_row({"registrations", format_number(demand.registrations_h, 2),
-                 format_number(demand.cache_mib, 2), std::to_string(demand.surveys) + " surveys"});
+                 format_number(demand.cache_mib, 2), counted(demand.surveys, "survey")});
   table.add_row({"runs", format_number(demand.runs_h, 2), format_number(demand.store_mib, 2),
                  fmt::format("{} trials with {} estimators", demand.trials, demand.estimators)});
   print("%s\n", table.text().c_str());

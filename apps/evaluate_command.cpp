@@ -181,6 +181,7 @@ void add_evaluate(CLI::App& program, Context& context) {
                    "Relative error over so many poses (repeatable)");
   command.reals("--distance", flags->distances_m, Range::positive(), "M",
                 "and over so many metres (repeatable)");
+  command.quiet();
   command.on_run([flags, &context] { evaluate_files(*flags, context); });
 }
 

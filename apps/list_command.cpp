@@ -95,6 +95,7 @@ void add_list(CLI::App& program, Context& context) {
   command.argument("what", *what, {"estimators", "detectors", "datasets", "metrics", "features"},
                    "what of this build");
   add_plugins_to(command, *plugins);
+  command.quiet();
   command.on_run([what, plugins, &context] {
     for (const std::string& file : *plugins) context.estimators().load(file);
     list(*what, context);

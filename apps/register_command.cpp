@@ -34,12 +34,14 @@ struct RegisterFlags {
   double altitude_b_m = 0.0;
 };
 
-cv::Mat picture_for(const Camera& camera, const std::string& path) {
+cv::Mat picture_for(const Camera& camera, const std::string& path, const std::string& config) {
   cv::Mat picture = read_grey_picture(path);
   const CameraModel& model = camera.model();
   if (picture.cols != model.width || picture.rows != model.height) {
-    throw InputError(path, fmt::format("is {} x {} pixels, the camera of --config {} x {}",
-                                       picture.cols, picture.rows, model.width, model.height));
+    throw InputError(
+        path, fmt::format("is {} x {} pixels, the camera {} {} x {}", picture.cols, picture.rows,
+                          config.empty() ? "by default, without --config," : "of --config",
+                          model.width, model.height));
   }
   return picture;
 }
@@ -96,8 +98,8 @@ void register_pictures(const RegisterFlags& flags, Context& context) {
   const Configuration configuration = configuration_of(settings, flags.common.estimators());
   Pictures pictures(configuration);
   const Camera camera = pictures.source().camera();
-  const cv::Mat a = picture_for(camera, flags.a);
-  const cv::Mat b = picture_for(camera, flags.b);
+  const cv::Mat a = picture_for(camera, flags.a, flags.config);
+  const cv::Mat b = picture_for(camera, flags.b, flags.config);
   std::vector<std::filesystem::path> inputs = workflow::inputs_of(flags.config, settings);
   inputs.insert(inputs.end(), {flags.a, flags.b});
   StagedFolder folder(flags.common.folder_or("register"), inputs);

@@ -12,12 +12,10 @@ namespace {
 struct ReportFlags {
   std::string study;
   std::string out;
-  bool quiet = false;
 };
 
 void report(const ReportFlags& flags) {
   const workflow::ReportOutcome done = workflow::report(flags.study, flags.out);
-  if (flags.quiet) return;
   print("%swrote %s\n", done.findings.c_str(), done.page.c_str());
 }
 
@@ -34,7 +32,7 @@ void add_report(CLI::App& program, Context& context) {
       "that compare wrote beside it.");
   command.argument("study", flags->study, "Folder of a study, or its results.sqlite");
   command.text("--out", flags->out, "DIR", "Folder to write into; the study's own if not given");
-  command.boolean("--quiet", flags->quiet, "No output but errors");
+  command.quiet();
   command.on_run([flags, &context] {
     context.status = kDone;
     report(*flags);

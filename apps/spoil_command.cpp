@@ -21,7 +21,6 @@ struct SpoilFlags {
   SpoilOptions options{.share = 0.3};
   int seed = 1;
   GraphOptions reading;
-  bool quiet = false;
 };
 
 void set_kind(const std::string& name, SpoilOptions& options) {
@@ -60,7 +59,6 @@ void spoil_graph(const SpoilFlags& flags, Context& context) {
   write_graph(output_file(flags.out), spoiled.log, spoiled.log.guess);
   write_file(output_file(list), false_loops_csv(spoiled));
   context.status = kDone;
-  if (flags.quiet) return;
   const std::size_t all = spoiled.log.registration_count();
   print("%zu false loops, %s, among %zu\nwrote %s\n      %s\n",
         all - recording.log.registration_count(), name_of(options.kind).c_str(), all,
@@ -92,7 +90,7 @@ void add_spoil(CLI::App& program, Context& context) {
   command.integer("--seed", flags->seed, Range::at_least(0), "N", "Another seed, other loops");
   command.text("--out", flags->out, "FILE", "Graph to write (g2o); the list lies beside it")
       .required();
-  command.boolean("--quiet", flags->quiet, "No output but errors");
+  command.quiet();
   command.on_run([flags, group_size, reach, &context] {
     refuse_unused(*flags, group_size, reach);
     spoil_graph(*flags, context);

@@ -66,6 +66,7 @@ void require_any(const std::vector<std::string>& folders) {
 FolderStatus status_of(const std::string& given) {
   const std::string folder = folder_of(given);
   FolderStatus status{given, std::nullopt, "", worker_of(folder)};
+  refuse_run_folder(folder);
   if (!fs::exists(fs::path(folder) / kResultsFile)) return status;
   try {
     status.content = shard_folder(folder, ResultStore::open(folder));
@@ -159,6 +160,7 @@ void add_status(CLI::App& program, Context& context) {
                   "Says of every folder what is done, running, failed and left, and which command "
                   "goes on.");
   command.arguments("folders", flags->folders, "Folders of the shards, or of studies");
+  command.quiet();
   command.on_run([flags, &context] { show_status(*flags, context); });
 }
 

@@ -30,11 +30,12 @@ void require_within_limits(const std::string& yaml, const Source& source) {
 }
 
 // Messages show keys whole.
+constexpr std::size_t kLongestShown = 200;
+
 void require_short(const std::string& key, const std::string& origin) {
-  constexpr std::size_t kLongest = 200;
-  if (key.size() <= kLongest) return;
+  if (key.size() <= kLongestShown) return;
   throw InputError(origin + ": key " + in_quotes(key) + " has " + std::to_string(key.size()) +
-                   " bytes; the limit is " + std::to_string(kLongest));
+                   " bytes; the limit is " + std::to_string(kLongestShown));
 }
 
 // Nested lists are flattened: a list of points is a list of numbers.
@@ -194,8 +195,7 @@ Settings parse_settings(const std::string& yaml, const std::string& source) {
 
 Setting parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
-  constexpr std::size_t kShown = 200;
-  const std::string origin = "--set " + (text.size() > kShown ? in_quotes(text) : text);
+  const std::string origin = "--set " + (text.size() > kLongestShown ? in_quotes(text) : text);
   if (equals == std::string::npos || equals == 0) {
     throw InputError(origin + ": expected KEY=VALUE, for example seed=7");
   }
@@ -207,9 +207,7 @@ Setting parse_override(const std::string& text) {
   try {
     // YAML takes an unquoted word as it is, so that file names and numbers need no quotes.
     const YAML::Node node = YAML::Load(value);
-    if (!node.IsScalar() && !node.IsSequence()) {
-      return {key, OptionValue::scalar(value), origin};
-    }
+    if (!node.IsScalar() && !node.IsSequence()) return {key, OptionValue::scalar(value), origin};
     Flattener({origin, false}, settings).add(key, node);
   } catch (const YAML::Exception&) {
     return {key, OptionValue::scalar(value), origin};
@@ -244,7 +242,9 @@ const std::string& word_of(const Setting& setting, std::string_view key) {
 }
 
 void refuse(const Setting& setting, const std::string& message) {
-  throw InputError(setting.origin + ": " + message);
+  // Not "--trials: trials: …" of a flag that is called as its key.
+  const bool has_both = "--" + setting.key == setting.origin && message.starts_with(setting.key);
+  throw InputError((has_both ? "--" : setting.origin + ": ") + message);
 }
 
 }  // namespace fathom

@@ -134,7 +134,7 @@ std::int64_t time_of(const LineOfFile& line, std::string_view seconds) {
 StampedSpatialPose tum_pose(const LineOfFile& line, bool has_commas) {
   const Fields fields = has_commas ? split_csv(line.text()) : split(line.text());
   if (fields.size() != 8) {
-    line.refuse("expected 't x y z qx qy qz qw', got " + std::to_string(fields.size()) + " fields");
+    line.refuse("expected 't x y z qx qy qz qw', got " + counted(fields.size(), "field"));
   }
   const auto v = reals<8>(line, fields);
   return {time_of(line, fields[0]),
@@ -144,8 +144,7 @@ StampedSpatialPose tum_pose(const LineOfFile& line, bool has_commas) {
 StampedSpatialPose euroc_pose(const LineOfFile& line) {
   Fields fields = split_csv(line.text());
   if (fields.size() < 8) {
-    line.refuse("expected 't, x, y, z, qw, qx, qy, qz', got " + std::to_string(fields.size()) +
-                " fields");
+    line.refuse("expected 't, x, y, z, qw, qx, qy, qz', got " + counted(fields.size(), "field"));
   }
   const std::int64_t time_ns = nanoseconds(line, fields[0]);
   fields[0] = "0";
@@ -158,7 +157,7 @@ SpatialPose kitti_pose(const LineOfFile& line) {
   const Fields fields = split(line.text());
   if (fields.size() != 12) {
     line.refuse("expected the 12 numbers of a 3 x 4 matrix by rows, got " +
-                std::to_string(fields.size()) + " fields");
+                counted(fields.size(), "field"));
   }
   const auto v = reals<12>(line, fields);
   Eigen::Matrix3d matrix;

@@ -1,16 +1,24 @@
 #include "fathom/harness/survey.hpp"
 
+#include <filesystem>
 #include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "fathom/core/random.hpp"
+#include "fathom/core/text.hpp"
 
 namespace fathom {
 
 InputError at_origin(const Configuration& configuration, const InputError& error) {
   const std::string message = error.what();
-  const auto origin = configuration.origins.find(message.substr(0, message.find(':')));
+  const std::string key = message.substr(0, message.find(':'));
+  auto origin = configuration.origins.find(key);
+  // What is not given is missed by what is.
+  if (origin == configuration.origins.end() && key == "dataset.path") {
+    origin = configuration.origins.find("dataset.type");
+  }
   if (origin == configuration.origins.end()) return error;
   return InputError(origin->second + ": " + message);
 }
@@ -29,6 +37,21 @@ void with_origin(const Configuration& configuration, Action action) {
   } catch (const InputError& error) {
     throw at_origin(configuration, error);
   }
+}
+
+// Says where it was looked for. A path on the command line is its own origin.
+void require_path(const Configuration& configuration) {
+  namespace fs = std::filesystem;
+  const auto given = configuration.dataset.values.find("path");
+  const auto origin = configuration.origins.find("dataset.path");
+  if (given == configuration.dataset.values.end() || origin == configuration.origins.end()) return;
+  const fs::path path = given->second.text();
+  std::error_code error;
+  if (path.empty() || path == origin->second || fs::exists(path, error) || error) return;
+  const std::string base =
+      path.is_absolute() ? ""
+                         : "; paths start at the working folder, " + fs::current_path().string();
+  throw InputError("dataset.path: there is no " + in_quotes(path.string()) + base);
 }
 
 void require_pictures(const Configuration& configuration) {
@@ -71,7 +94,12 @@ std::unique_ptr<const DataSet> open_data_set(const Configuration& configuration,
   std::unique_ptr<const DataSet> data;
   with_origin(configuration, [&] {
     const DataSetEntry& entry = find_data_set(configuration.dataset.type);
-    data = entry.open(configuration.dataset.values, seed_of(configuration, survey));
+    try {
+      data = entry.open(configuration.dataset.values, seed_of(configuration, survey));
+    } catch (const InputError& error) {
+      if (!std::string(error.what()).starts_with("dataset.")) require_path(configuration);
+      throw;
+    }
   });
   return data;
 }

@@ -32,7 +32,13 @@ ResultStore::~ResultStore() = default;
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 
+void refuse_run_folder(const fs::path& path) {
+  if (!fs::exists(path / "metrics.json") || fs::exists(path / kResultsFile)) return;
+  throw InputError(path.string(), "is the folder of a run; expected that of a study");
+}
+
 ResultStore ResultStore::open(const fs::path& path) {
+  refuse_run_folder(path);
   const fs::path file = fs::is_directory(path) ? path / kResultsFile : path;
   if (!fs::is_regular_file(file)) {
     throw InputError(file.string(), "there are no results; 'fathom compare' writes them");

@@ -35,7 +35,11 @@ std::set<fs::path> files_of_command(const EstimatorConfiguration& estimator) {
 Settings settings_of(const fs::path& path) {
   if (path.empty()) return {};
   const bool is_graph = path.extension() == ".g2o" || path.extension() == ".graph";
-  if (!is_graph && !fs::is_directory(path)) return read_settings(path);
+  if (!is_graph && !fs::is_directory(path)) {
+    Settings settings = read_settings(path);
+    if (settings.all().empty()) throw InputError(path.string(), "is empty; expected keys");
+    return settings;
+  }
   if (fs::exists(path / "metrics.json") && fs::exists(path / "measurements.g2o")) {
     throw InputError(path.string(), "is the folder of a run or a study, no survey");
   }

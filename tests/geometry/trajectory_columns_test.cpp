@@ -50,7 +50,7 @@ TEST_F(TrajectoryColumns, TumWithCommas) {
     EXPECT_EQ(found.poses[1].pose.position_m, Eigen::Vector3d(1.5, 2, 3));
     EXPECT_EQ(found.poses[1].pose.rotation.coeffs(), Eigen::Vector4d(0, 0, 0.8, 0.6));
   }
-  EXPECT_THAT(error_of(text + "1403636580 0 0 0 0 0 0 1\n"), HasSubstr("got 1 fields"));
+  EXPECT_THAT(error_of(text + "1403636580 0 0 0 0 0 0 1\n"), HasSubstr("got 1 field"));
   // Whole seconds could be of either format, and a flag says which.
   const std::string whole = "1403636579,1,2,3,0,0,0.6,0.8\n1403636580,1,2,3,0,0,0.6,0.8\n";
   EXPECT_THAT(error_of(whole), HasSubstr("--from tum reads commas, seconds"));

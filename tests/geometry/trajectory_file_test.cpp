@@ -111,13 +111,13 @@ TEST_F(TrajectoryFile, RefusesWithFileAndLine) {
   const std::string euroc = "0,0,0,0,1,0,0,0\n";
   const std::string kitti = "1 0 0 0 0 1 0 0 0 0 1 0\n";
   const std::vector<std::pair<std::string, std::string>> faults{
-      {tum + "1,0,0,0,1,0,0,0", "got 1 fields"},
+      {tum + "1,0,0,0,1,0,0,0", "got 1 field"},
       {tum + kitti, "expected 't x y z qx qy qz qw', got 12 fields"},
       {tum + "1403636579763555527 0 0 0 0 0 0 1", "it seems, nanoseconds"},
       {tum + "0 0 0 0 0 0 0 1", "time stamps must rise"},
       {tum + "0" + std::string(2 << 20, ' ') + "1", "has more than a mebibyte"},
       {euroc + "5000000000,0,0,0,1,0,0", "got 7 fields"},
-      {euroc + tum, "got 1 fields"},
+      {euroc + tum, "got 1 field"},
       {euroc + "5000000000,0,0,,1,0,0,0", "'' is not a finite number"},
       {euroc + "5000000000,0,0,0,0,0,0,0", "must have length 1, not 0"},
       {euroc + "-5000000000,0,0,0,1,0,0,0", "time goes back from '0' to '-5000000000'"},

@@ -53,6 +53,9 @@ struct RunRecord {
 /// The name of a study's results in its folder.
 inline constexpr const char* kResultsFile = "results.sqlite";
 
+/// Throws InputError of the folder of a run, which is no study's.
+void refuse_run_folder(const std::filesystem::path& path);
+
 /// The results of one study: one SQLite file, `results.sqlite` (docs/outputs.md has its schema).
 /// Throws InputError on a file that is no such store, is of another schema version, is damaged,
 /// cannot be read or cannot be written (a full disk among them); nothing of a run is ever stored in
