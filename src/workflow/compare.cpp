@@ -169,6 +169,7 @@ class Comparison {
       if (!one.result.run.fault.empty()) faults.erase(one.result.estimator.name);
     }
     std::vector<std::string> remarks;
+    remarks.reserve(faults.size());
     for (const auto& [estimator, own] : faults) {
       remarks.push_back(fmt::format("{}: {} ended by a fault, the first: {}", estimator,
                                     counted(own.size(), "run"), own.front()));
