@@ -80,7 +80,7 @@ TEST_F(Usage, MisuseIsOneLineAndStatusTwo) {
       {{"runn", "a.yaml"}, "unknown command 'runn'; did you mean 'run'?"},
       {{"frobnicate"}, "unknown command 'frobnicate' (fathom --help lists them)"},
       {{"--versoin"}, "unknown flag '--versoin'; did you mean '--version'?"},
-      {{"run"}, "'config' is missing: Configuration (YAML), or a folder"},
+      {{"run"}, "'config' is missing: Configuration (YAML), a folder"},
       {{"run", "a.yaml", "b.yaml"}, "'b.yaml' is a word too many (see fathom run --help)"},
       {{"run", "a.yaml", "--ou", "x"}, "unknown flag '--ou'; did you mean '--out'?"},
       {{"run", "--sett", "a=b"}, "unknown flag '--sett'; did you mean '--set'?"},
