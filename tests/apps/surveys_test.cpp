@@ -104,7 +104,7 @@ TEST_F(Surveys, RealPicturesAreOneSet) {
   EXPECT_THAT(table, HasSubstr("one set of pictures, 2 trials"));
   EXPECT_THAT(table, HasSubstr("One set of pictures: intervals over its trials say nothing of"));
   EXPECT_THAT(refusal({"compare", "f.yaml", "--out", "no", "--surveys", "2"}),
-              StartsWith("--surveys: surveys: an image_folder is one set of pictures"));
+              StartsWith("--surveys: an image_folder is one set of pictures"));
   write("g.yaml", folder + "surveys: 3\n");
   EXPECT_THAT(refusal({"compare", "g.yaml", "--out", "no"}), StartsWith("g.yaml:5: surveys: an "));
 }
@@ -115,8 +115,8 @@ TEST_F(Surveys, ContradictoryAndAbsurdNumbersAreRefused) {
               StartsWith("log.yaml:3: surveys: simulated_log draws everything in each of its"));
   write("s.yaml", kStudy);
   EXPECT_THAT(refusal(compare("no", 300'000, 5)),
-              StartsWith("--surveys: surveys: 300000 of 5 trials each are too many"));
-  EXPECT_THAT(refusal(compare("no", 0, 5)), StartsWith("--surveys: surveys: expected"));
+              StartsWith("--surveys: 300000 of 5 trials each are too many"));
+  EXPECT_THAT(refusal(compare("no", 0, 5)), StartsWith("--surveys: expected"));
   EXPECT_THAT(refusal({"run", "s.yaml", "--out", "no", "--set", "surveys=2"}),
               HasSubstr("it is for 'compare'"));
 }

@@ -161,8 +161,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadFolder{"CameraKeyTwice", kYaml,
                   FATHOM_YAML("[8, 6]", "[9, 9, 4, 3]", "mounting: {x: 1, x: 2}"),
                   "sensor.yaml:3: 'x' is given twice"},
-        BadFolder{"OutliersUnknown", kAltimeterYaml, "outliers: kept\n",
-                  "altimeter0/sensor.yaml:1: outliers: 'kept' is unknown; expected leave_out or "
+        BadFolder{"OutliersUnknown", kAltimeterYaml, "outliers: kep\n",
+                  "altimeter0/sensor.yaml:1: outliers: 'kep' is unknown; expected leave_out or "
                   "keep; did you mean 'keep'?"},
         BadFolder{"OdometryYamlBroken", "odometry0/sensor.yaml", "a: [b\n",
                   "odometry0/sensor.yaml:2: is not valid YAML"},
