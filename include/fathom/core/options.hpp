@@ -79,7 +79,8 @@ class OptionTable {
 
   template <class Enum>
   void enumeration(const std::string& key, Enum& field,
-                   const std::vector<std::pair<std::string, Enum>>& names, std::string help) {
+                   const std::vector<std::pair<std::string, Enum>>& names,
+                   const std::string& help) {
     std::vector<std::string> choices;
     std::vector<Enum> values;
     std::string current;
@@ -88,7 +89,7 @@ class OptionTable {
       values.push_back(value);
       if (value == field) current = name;
     }
-    add_choice(key, std::move(current), std::move(choices), std::move(help),
+    add_choice(key, std::move(current), std::move(choices), help,
                [&field, values = std::move(values)](std::size_t place, const std::string&) {
                  field = values[place];
                });
