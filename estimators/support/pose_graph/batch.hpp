@@ -19,9 +19,8 @@ enum class Start {
 
 /// Headings of LAGO, or chordal ones, are trusted if every edge keeps its turn to this, before the
 /// positions are computed and after: a wrong multiple of 2π leaves more on the edges of some loop.
-/// On the sets of
-/// docs/estimators/sparse_gauss_newton.md it is 0.13 rad at most where the rounding is right, 0.7
-/// rad and more where it is wrong.
+/// On the sets of docs/estimators/sparse_gauss_newton.md it is 0.13 rad at most where the rounding
+/// is right, 0.7 rad and more where it is wrong.
 inline constexpr double kTrustedTurnRad = 0.5;
 /// The same of a chain as a whole, over whose steps a wrong multiple may spread. Chosen on drawn
 /// streets of 1000 and 3000 keyframes, 240 of them, with few to many loops and 0.05 to 0.2 rad a

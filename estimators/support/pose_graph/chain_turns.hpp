@@ -23,7 +23,7 @@ class ChainTurns {
   /// `theta`.
   std::vector<double> solve(HeadingProblem& left, std::span<const double> theta) const;
 
-  /// By how much a chain keeps its turn at worst, if each step is rounded along `theta`.
+  /// How far a chain is from its turn at worst, each step rounded along `theta`.
   double worst_turn(std::span<const double> theta) const;
 
   /// Headings of all keyframes for those that are left: what a chain's end is off, within ±π, is
