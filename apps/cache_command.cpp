@@ -19,7 +19,7 @@ struct CacheCommandFlags {
 
 // A name that is misspelt is no empty cache.
 void require_cache(const std::filesystem::path& folder) {
-  if (cache_content(folder).bytes > 0) return;
+  if (has_registrations(folder)) return;
   std::error_code error;
   if (std::filesystem::is_directory(folder) && std::filesystem::is_empty(folder, error)) return;
   throw InputError(folder.string(), "is no cache; expected the folder of --cache or FATHOM_CACHE");

@@ -142,7 +142,7 @@ void check(const CheckFlags& flags, Context& context) {
   if (ending == ".bag" || ending == ".db3" || ending == ".mcap") {
     throw InputError(path, "is a bag; fathom import makes a folder of it that can be checked");
   }
-  if (ending == ".json") {
+  if (ending == ".json" && std::filesystem::exists(path)) {
     throw InputError(path,
                      "is JSON; expected a folder, a configuration (.yaml), a trajectory or a "
                      "pose graph");

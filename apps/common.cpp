@@ -63,6 +63,7 @@ Settings CommonFlags::given(const std::string& path) const {
   for (const std::string& text : overrides) {
     for (const Setting& one : parse_overrides(text)) settings.put(one);
   }
+  if (!path.empty()) workflow::require_keys(settings, path);
   if (seed) settings.put({"seed", OptionValue::scalar(std::to_string(*seed)), "--seed"});
   return settings;
 }

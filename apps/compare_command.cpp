@@ -93,7 +93,7 @@ void compare_as(const std::optional<Shard>& shard, const CompareFlags& flags, Co
   request.settings = flags.settings();
   request.inputs = workflow::inputs_of(flags.config, request.settings);
   request.title = workflow::stem_of(flags.config);
-  if (!flags.only_registrations) request.out = flags.common.folder_or(request.title);
+  if (!flags.only_registrations) request.out = flags.common.folder_or(request.title + "-study");
   request.made_by = context.command_line;
   request.mosaics = !flags.no_mosaic;
   request.shard = shard;
@@ -138,7 +138,7 @@ void add_compare(CLI::App& program, Context& context) {
   command.argument("config", flags->config,
                    "Study (YAML), or a folder of pictures, plain or in the EuRoC/ASL layout");
   flags->common.add_settings_to(command, context);
-  flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name)");
+  flags->common.add_out_to(command, "Output folder (default: runs/CONFIG's name-study)");
   command.integer("--surveys", flags->surveys, Range::any(), "N",
                   "Surveys in every cell: floor, attitude and sensors drawn anew");
   command.integer("--trials", flags->trials, Range::any(), "N",

@@ -43,14 +43,13 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
-// The last one first, as CLI11 has them. "help" and "help run" are "--help" and "run --help".
-std::vector<std::string> words_of(int argc, char** argv) {
+// "help" and "help run" are "--help" and "run --help"; of another word the refusal is that of it.
+std::vector<std::string> words_of(int argc, char** argv, const CLI::App& app) {
   std::vector<std::string> words(argv + 1, argv + argc);
-  if (!words.empty() && words.front() == "help") {
-    words.erase(words.begin());
-    words.push_back("--help");
-  }
-  std::ranges::reverse(words);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  const auto is_asked = [&](const CLI::App* one) { return one->check_name(words.front()); };
+  if (words.empty() || !app.get_subcommands(is_asked).empty()) words.push_back("--help");
   return words;
 }
 
@@ -97,14 +96,15 @@ int main_function(int argc, char** argv) {
         add_estimate, add_cache,   add_conformance, add_pages}) {
     add(app, context);
   }
+  const std::vector<std::string> words = words_of(argc, argv, app);
   try {
-    std::vector<std::string> words = words_of(argc, argv);
-    app.parse(words);
+    // The last one first, as CLI11 has them.
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const FlagError& error) {
     return refused(with_help(app, error.what()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    return refused(parse_error_text(app, error, argc > 1 ? argv[1] : ""));
+    return refused(parse_error_text(app, error, words.empty() ? "" : words.front()));
   }
   return context.status;
 }

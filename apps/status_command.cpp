@@ -57,6 +57,7 @@ std::string folder_of(const std::string& given) {
 
 // A shard that has not begun has no folder, but then another one of its study has.
 void require_any(const std::vector<std::string>& folders) {
+  if (std::ranges::all_of(folders, is_run_folder)) refuse_run_folder(folders.front());
   if (std::ranges::any_of(folders, [](const std::string& folder) { return fs::exists(folder); })) {
     return;
   }
@@ -66,7 +67,6 @@ void require_any(const std::vector<std::string>& folders) {
 FolderStatus status_of(const std::string& given) {
   const std::string folder = folder_of(given);
   FolderStatus status{given, std::nullopt, "", worker_of(folder)};
-  refuse_run_folder(folder);
   if (!fs::exists(fs::path(folder) / kResultsFile)) return status;
   try {
     status.content = shard_folder(folder, ResultStore::open(folder));
@@ -88,6 +88,7 @@ std::string state_of(const FolderStatus& status) {
   if (!status.problem.empty()) return "damaged";
   if (!status.at_work.empty()) return "running: " + status.at_work;
   if (!fs::exists(status.folder)) return "no such folder";
+  if (is_run_folder(status.folder)) return "a run, no study";
   if (!status.content) return "nothing yet";
   return status.content->own_done() < status.content->own() ? "stopped" : "done";
 }

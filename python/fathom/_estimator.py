@@ -123,21 +123,31 @@ class Estimator:
         return []
 
 
+_METHODS = [name for name, method in vars(Estimator).items() if inspect.isfunction(method)]
+
+
+def _missing(cls):
+    """Methods that are those of the base class."""
+    return [name for name in _METHODS if getattr(cls, name) is getattr(Estimator, name)]
+
+
+def _needed(cls):
+    """Of these the ones that a subclass writes."""
+    return [name for name in _REQUIRED if name in _missing(cls)]
+
+
 def _require_methods(cls):
     """Those that a subclass writes; and warns of what looks like another, misspelt."""
-    missing = [
-        name
-        for name, of_base in vars(Estimator).items()
-        if inspect.isfunction(of_base) and getattr(cls, name) is of_base
-    ]
+    missing = _missing(cls)
     slips = [
         f"{cls.__qualname__}: has a method '{name}'{near}"
         for name in dir(cls)
         if not (name.startswith("_") or hasattr(Estimator, name)) and callable(getattr(cls, name))
-        if (near := _suggestion(name, missing))
+        # 'poses' beside 'pose' is one of its own, however near to 'loss'.
+        if (near := _suggestion(name, _METHODS)) == _suggestion(name, missing)
+        if near
     ]
-    needed = [name for name in _REQUIRED if name in missing]
-    if needed:
+    if needed := _needed(cls):
         raise InputError("; ".join([f"{cls.__qualname__}: has no {', '.join(needed)}", *slips]))
     for slip in slips:
         warnings.warn(slip)
@@ -170,7 +180,8 @@ def described(cls) -> dict:
 
 
 def classes_of(file: str) -> list:
-    """The subclasses of Estimator that a file defines; its folder is searched for its imports."""
+    """The subclasses of Estimator that a file defines, but for incomplete ones that others of it
+    complete; its folder is searched for its imports."""
     path = pathlib.Path(file).resolve()
     if str(path.parent) not in sys.path:
         sys.path.insert(0, str(path.parent))
@@ -180,7 +191,7 @@ def classes_of(file: str) -> list:
     sys.modules[name] = module
     spec.loader.exec_module(module)
     require_own_imports(path)
-    return [
+    classes = [
         value
         for key, value in vars(module).items()
         if isinstance(value, type)
@@ -188,6 +199,8 @@ def classes_of(file: str) -> list:
         and value.__module__ == name
         and not key.startswith("_")
     ]
+    bases = {base for one in classes for base in one.__mro__[1:]}
+    return [one for one in classes if not (one in bases and _needed(one))]
 
 
 def _snake(name: str) -> str:

@@ -11,6 +11,14 @@ from ._names import shown
 from ._settings import settings_of
 
 
+def _real(value) -> float:
+    """Of any type of number, those of numpy as well; NaN of what is none."""
+    try:
+        return math.nan if isinstance(value, str) else float(value)
+    except (TypeError, ValueError):
+        return math.nan
+
+
 def register(
     a, b, altitude_a, altitude_b, camera, *, front_end=None, tilt_a=None, tilt_b=None, seed=1
 ):
@@ -27,7 +35,7 @@ def register(
     for of, picture, altitude in (("a", a, altitude_a), ("b", b, altitude_b)):
         if not isinstance(picture, numpy.ndarray):
             raise InputError(f"{of}: expected an array of H x W uint8, got {shown(picture)}")
-        if not (isinstance(altitude, numbers.Real) and 0 < altitude < math.inf):
+        if not 0 < _real(altitude) < math.inf:
             raise InputError(
                 f"altitude_{of}: expected a number of metres above 0, got {shown(altitude)}"
             )
@@ -36,8 +44,8 @@ def register(
     return _fathom._register(
         a,
         b,
-        altitude_a,
-        altitude_b,
+        float(altitude_a),
+        float(altitude_b),
         settings_of(camera, "camera"),
         settings_of(front_end or {}, "front_end"),
         tilt_a,

@@ -3,7 +3,7 @@
 import json
 import os
 import pathlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from ._estimator import Estimator, described
 from ._fathom import InputError, _Registry, _Settings
@@ -29,8 +29,6 @@ class Asked:
     def __init__(self, config, changes, plugins, what, added=()):
         self._what = what
         self.file = ""
-        if config == {} and not changes:  # as an empty file is
-            raise InputError(f"{what}: is empty; expected keys")
         if isinstance(config, dict):
             self.settings = _Settings()
             self.put(config)
@@ -41,6 +39,7 @@ class Asked:
             if isinstance(value, (list, tuple)):  # replaces a list as a whole
                 self.settings.drop_below(f"{key}.")
         self.put(changes)
+        self.settings.require_keys(self.file or what)
         self.settings.load_plugins(files_of(plugins))
         self.registry = _Registry()
         parts = [_inside(part) for part in (config, changes, *added)]
@@ -78,7 +77,7 @@ def listed(estimators) -> list:
 
 def changes_of(given, **more) -> dict:
     """The settings `set`, and those of others that are not None."""
-    if not isinstance(given, dict):
+    if not isinstance(given, Mapping):
         raise InputError(f"set: expected a dict as {{'seed': 3}}, got {shown(given)}")
     return {**given, **{key: value for key, value in more.items() if value is not None}}
 

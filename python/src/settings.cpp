@@ -35,6 +35,7 @@ void bind_settings(py::module_& module) {
              }
              settings = std::move(kept);
            })
+      .def("require_keys", &workflow::require_keys)
       .def("estimator_count",
            [](const Settings& settings) {
              std::size_t count = 0;

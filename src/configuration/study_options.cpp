@@ -39,6 +39,11 @@ void require_known_metrics(const Settings& settings, const std::vector<std::stri
     if (find_metric(name)) continue;
     std::vector<std::string> all;
     for (const Metric& metric : metric_catalogue()) all.push_back(metric.name);
+    if (std::ranges::find(all, name) != all.end()) {
+      refuse(*settings.find("report.metrics"),
+             "report.metrics: " + in_quotes(name) +
+                 ": expected a number in place of N or D, as in rpe_1_keyframes_m or rpe_5_m_m");
+    }
     refuse(*settings.find("report.metrics"),
            fmt::format("report.metrics: unknown metric {}{} ('fathom list metrics' has all)",
                        in_quotes(name), suggestion(name, all)));

@@ -12,17 +12,21 @@ namespace fathom {
 namespace {
 
 constexpr const char* kVariable = "FATHOM_LIMITS";
+// The limit of OpenCV's decoders.
+constexpr std::uint64_t kOpenCvPixels = 1U << 30U;
 
 struct NamedLimit {
   std::string_view name;
   std::uint64_t value;
+  std::uint64_t most = 1ULL << 62U;
 };
 
 using NamedLimits = std::array<NamedLimit, 3>;
 
 NamedLimits limits_of(std::string_view given) {
   NamedLimits limits{
-      {{"csv_rows", 10'000'000}, {"picture_pixels", 1U << 28U}, {"chunk_bytes", 128'000'000}}};
+      {{"csv_rows", 10'000'000}, {"picture_pixels", 1U << 28U, kOpenCvPixels},
+       {"chunk_bytes", 128'000'000}}};
   for (const std::string_view word : split(given, ",")) {
     const std::size_t equals = std::min(word.find('='), word.size());
     auto* const limit = std::ranges::find(limits, word.substr(0, equals), &NamedLimit::name);
@@ -32,6 +36,10 @@ NamedLimits limits_of(std::string_view given) {
                                       in_quotes(word));
     }
     limit->value = static_cast<std::uint64_t>(*value);
+    if (limit->value > limit->most) {
+      throw InputError(kVariable, std::string(limit->name) + ": expected at most " +
+                                      std::to_string(limit->most) + ", got " + in_quotes(word));
+    }
   }
   return limits;
 }

@@ -61,8 +61,9 @@ std::vector<bool> read_false_loops(const std::filesystem::path& path, const Meas
   const std::vector<RelativePose> all = registrations_of(log);
   std::vector<bool> is_false(all.size(), false);
   const std::string content = read_text(path);
+  bool has_header = false;
   for (const auto& [line, row] : lines_of(content)) {
-    if (line == 1) {
+    if (!std::exchange(has_header, true)) {
       if (row != kHeader) {
         throw InputError(path.string(), line, std::string("expected the header ") + kHeader);
       }

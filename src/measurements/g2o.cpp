@@ -168,7 +168,8 @@ void GraphOptions::describe(OptionTable& table) {
 MeasurementLog read_g2o(const std::filesystem::path& path, const GraphOptions& options) {
   // Of a run or a study.
   const std::filesystem::path inside = path / "measurements.g2o";
-  if (std::filesystem::exists(inside)) {
+  std::error_code error;
+  if (std::filesystem::exists(inside, error)) {
     throw InputError(path.string(), "is a folder; the graph in it is " + inside.string());
   }
   const std::optional<SharedText> shared = shared_beside(path);

@@ -16,6 +16,7 @@ constexpr double kRise = 0.35;  // times its size, from the middle of a digit to
 constexpr double kWidestLabel = 90.0;
 
 constexpr double kTallestLabel = 45.0;  // of one that stands on end
+constexpr double kLead = 5.0;           // from a tick to such a label
 
 double widest_of(const ChartAxis& axis) {
   double widest = 0.0;
@@ -55,7 +56,7 @@ ChartFrame::ChartFrame(ChartAxis x, ChartAxis y, const Box& outer)
   set_box();
   is_turned_ = x_.keeps_labels && x_labels().size() < x_.ticks.size();
   if (!is_turned_) return;
-  label_height_ = std::min(widest_of(x_), kTallestLabel) + 2.0;
+  label_height_ = kLead + std::min(widest_of(x_), kTallestLabel) + 2.0;
   set_box();
 }
 
@@ -77,17 +78,28 @@ std::vector<Eigen::Vector2d> ChartFrame::at(const std::vector<Eigen::Vector2d>& 
 }
 
 // A line of text apart, which is as small as their number asks for; moved from their ticks no more
-// than that needs.
+// than that needs. Where all would be too small to read, every so many.
 std::vector<ChartFrame::Label> ChartFrame::turned_labels() const {
   constexpr double kPitch = 1.1;
+  constexpr double kSmallest = 4.0;
   const auto count = static_cast<double>(x_.ticks.size());
-  const double pitch = std::min(kPitch * kFontSize, box_.width / count);
-  std::vector<Label> labels;
+  const double every = std::ceil(count * kPitch * kSmallest / box_.width);
+  std::vector<Label> all;
   for (const auto& [value, text] : x_.ticks) {
-    labels.push_back({box_.left + x_.share(value) * box_.width,
-                      shortened(text, pitch / kPitch, kTallestLabel), pitch / kPitch});
+    const double tick = box_.left + x_.share(value) * box_.width;
+    all.push_back({tick, text, kFontSize, tick});
   }
-  std::ranges::sort(labels, {}, &Label::at);
+  std::ranges::sort(all, {}, &Label::at);
+  std::vector<Label> labels;
+  for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every)) {
+    labels.push_back(std::move(all[i]));
+  }
+  const double span = labels.back().at - labels.front().at;
+  const double pitch = std::min(kPitch * kFontSize, span / static_cast<double>(labels.size() - 1));
+  for (Label& label : labels) {
+    label.size = pitch / kPitch;
+    label.text = shortened(label.text, label.size, kTallestLabel);
+  }
   for (std::size_t i = 1; i < labels.size(); ++i) {
     labels[i].at = std::max(labels[i].at, labels[i - 1].at + pitch);
   }
@@ -150,7 +162,10 @@ void ChartFrame::draw_x(Canvas& canvas) const {
   const double baseline = box_.bottom() + kTick + label_height_;
   for (const Label& label : is_turned_ ? turned_labels() : x_labels()) {
     if (is_turned_) {
-      canvas.text(label.text, {label.at + kRise * label.size, box_.bottom() + kTick + 1.0},
+      // From a value to its label, which may have had to move.
+      const double top = box_.bottom() + kTick + kLead;
+      canvas.line({label.tick, box_.bottom() + kTick}, {label.at, top}, {kSoftInk, 0.5, {}, 1.0});
+      canvas.text(label.text, {label.at + kRise * label.size, top + 1.0},
                   {label.size, kSoftInk, TextAlign::right, true});
     } else {
       canvas.text(label.text, {label.at, baseline}, {label.size, kSoftInk, TextAlign::centre});

@@ -29,6 +29,7 @@ class ChartFrame {
     double at = 0.0;
     std::string text;
     double size = kFontSize;
+    double tick = 0.0;  ///< where its value is
   };
   std::vector<Label> x_labels() const;
   std::vector<Label> turned_labels() const;

@@ -70,7 +70,12 @@ std::vector<Sweep> sweeps_along(std::size_t axis, const StudyResults& results) {
   }
   std::vector<Sweep> list;
   for (auto& [others, sweep] : sweeps) {
-    if (sweep.cells.size() > 1) list.push_back(std::move(sweep));
+    if (sweep.cells.size() < 2) continue;
+    // A line goes from number to number, in whatever order they were given.
+    std::ranges::stable_sort(sweep.cells, {}, [&](std::size_t cell) {
+      return sweep.positions[results.study.places_of(results.cells[cell].cell)[axis]];
+    });
+    list.push_back(std::move(sweep));
   }
   return list;
 }

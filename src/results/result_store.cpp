@@ -32,9 +32,13 @@ ResultStore::~ResultStore() = default;
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 
+bool is_run_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path / "metrics.json", error) && !fs::exists(path / kResultsFile, error);
+}
+
 void refuse_run_folder(const fs::path& path) {
-  if (!fs::exists(path / "metrics.json") || fs::exists(path / kResultsFile)) return;
-  throw InputError(path.string(), "is the folder of a run; expected that of a study");
+  if (is_run_folder(path)) throw InputError(path.string(), "is the folder of a run; expected that of a study");
 }
 
 ResultStore ResultStore::open(const fs::path& path) {

@@ -36,11 +36,10 @@ Settings settings_of(const fs::path& path) {
   if (path.empty()) return {};
   const bool is_graph = path.extension() == ".g2o" || path.extension() == ".graph";
   if (!is_graph && !fs::is_directory(path)) {
-    Settings settings = read_settings(path);
-    if (settings.all().empty()) throw InputError(path.string(), "is empty; expected keys");
-    return settings;
+    return read_settings(path);
   }
-  if (fs::exists(path / "metrics.json") && fs::exists(path / "measurements.g2o")) {
+  std::error_code error;
+  if (fs::exists(path / "metrics.json", error) && fs::exists(path / "measurements.g2o", error)) {
     throw InputError(path.string(), "is the folder of a run or a study, no survey");
   }
   const std::string type = is_graph                        ? "g2o"
@@ -50,6 +49,10 @@ Settings settings_of(const fs::path& path) {
   settings.put({"dataset.type", OptionValue::scalar(type), path.string()});
   settings.put({"dataset.path", OptionValue::scalar(path.string()), path.string()});
   return settings;
+}
+
+void require_keys(const Settings& settings, const std::string& source) {
+  if (settings.all().empty()) throw InputError(source, "is empty; expected keys");
 }
 
 std::vector<fs::path> inputs_of(const fs::path& path, const Settings& settings) {

@@ -43,6 +43,7 @@ std::vector<std::string> remarks_of_example(const fs::path& out, const StudyDesc
 
 MergeOutcome merge_studies(const std::vector<fs::path>& folders, const fs::path& out,
                            Observer& observer) {
+  require_no_run(out);
   MergeOutcome outcome{merge_stores(folders, out), {}, false};
   const ResultStore store = ResultStore::open(out);
   copy_example(folders, out, store.study());

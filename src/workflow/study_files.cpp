@@ -16,11 +16,14 @@ void require_no_study(const std::filesystem::path& out) {
   throw InputError(out.string(), "holds a study; a run needs a folder of its own (--out)");
 }
 
+void require_no_run(const std::filesystem::path& out) {
+  if (!std::filesystem::exists(out / "run.json")) return;
+  throw InputError(out.string(), "holds a run; a study needs a folder of its own (--out)");
+}
+
 void require_separate(const std::filesystem::path& out, const Study& study,
                       const std::vector<std::filesystem::path>& inputs) {
-  if (std::filesystem::exists(out / "run.json")) {
-    throw InputError(out.string(), "holds a run; a study needs a folder of its own (--out)");
-  }
+  require_no_run(out);
   std::vector<std::string> names{kResultsFile,         "report.html",     "runs.csv",
                                  "summary.csv",        "tables.tex",      "figures",
                                  "trajectories.png",   "metrics.json",    "table.txt",

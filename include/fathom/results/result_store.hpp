@@ -53,6 +53,8 @@ struct RunRecord {
 /// The name of a study's results in its folder.
 inline constexpr const char* kResultsFile = "results.sqlite";
 
+bool is_run_folder(const std::filesystem::path& path);
+
 /// Throws InputError of the folder of a run, which is no study's.
 void refuse_run_folder(const std::filesystem::path& path);
 

@@ -16,6 +16,9 @@ namespace fathom::workflow {
 /// InputError.
 Settings settings_of(const std::filesystem::path& path);
 
+/// Throws InputError naming `source` where nothing is set: an empty file is no survey.
+void require_keys(const Settings& settings, const std::string& source);
+
 /// What a configuration from `path` has read: itself, its data set, its floor. No output may
 /// replace one of these.
 std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& path,

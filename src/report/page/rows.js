@@ -34,8 +34,8 @@ function sweepRows() {
       }
     });
   }
-  const byPlace = (a, b) => a.place - b.place;
-  return {errors: errors.sort(byPlace), bounds: bounds.sort(byPlace)};
+  const along = study.axes[state.axis].positions ? (a, b) => a.x - b.x : (a, b) => a.place - b.place;
+  return {errors: errors.sort(along), bounds: bounds.sort(along)};
 }
 
 // The same place as the chosen cell on every other axis.

@@ -1,12 +1,20 @@
 // The plots of a sweep, and the labels of its axis.
 const kLineOfText = 13;
+const kSmallestLine = 9;
 
-// Places on a line of `length`, moved no more than is needed to be a line of text apart.
-function spread(places, length) {
+// Places on a line of `length`, moved no more than is needed to be a pitch apart.
+function spread(places, length, pitch) {
   const moved = [];
-  places.forEach((place, i) => moved.push(Math.max(place, i > 0 ? moved[i - 1] + kLineOfText : 0)));
-  for (let i = moved.length - 1; i >= 0; --i) moved[i] = Math.min(moved[i], i + 1 < moved.length ? moved[i + 1] - kLineOfText : length);
+  places.forEach((place, i) => moved.push(Math.max(place, i > 0 ? moved[i - 1] + pitch : 0)));
+  for (let i = moved.length - 1; i >= 0; --i) moved[i] = Math.min(moved[i], i + 1 < moved.length ? moved[i + 1] - pitch : length);
   return moved;
+}
+
+// Of labels that stand on end their size, and those that are shown: every so many, where all would be too small.
+function labelsOnEnd(count, length) {
+  const every = Math.ceil((count * kSmallestLine) / length);
+  const pitch = Math.min(kLineOfText, length / Math.max(1, Math.ceil(count / every) - 1));
+  return {every, pitch, size: Math.min(11, pitch - 2)};
 }
 
 // The axis of a sweep has the labels that were given, at `values`, all of them. Where they would not fit side
@@ -18,11 +26,19 @@ function labelSweep(spec, values, places) {
   const perPlace = length / Math.max(1e-300, Math.max(...places) - first);
   const order = places.map((place, i) => ({value: values[i], text: ticks[i], at: (place - first) * perPlace})).sort((a, b) => a.at - b.at);
   const isTight = order.slice(1).some((one, i) => one.at - order[i].at < 3.6 * (one.text.length + order[i].text.length) + 8);
-  const moved = spread(order.map((one) => one.at), length);
-  spec.signals.push({name: 'labels', value: Object.fromEntries(order.map(({value, text, at}, i) => [value, {text, shift: isTight ? moved[i] - at : 0}]))});
-  const update = {text: {signal: 'labels[datum.value].text'}, dy: {signal: 'labels[datum.value].shift'}};
-  Object.assign(spec.axes[0], {labelOverlap: false, encode: {labels: {update}}});
-  if (isTight) Object.assign(spec.axes[0], {labelAngle: -90, labelAlign: 'right', labelBaseline: 'middle'});
+  const {every, pitch, size} = isTight ? labelsOnEnd(order.length, length) : {every: 1};
+  const shown = order.filter((one, i) => i % every === 0);
+  const shownAt = shown.map((one) => one.at);
+  const moved = isTight ? spread(shownAt, length, pitch) : shownAt;
+  const labels = Object.fromEntries(order.map(({value}) => [value, {text: '', shift: 0}]));
+  shown.forEach(({value, text, at}, i) => Object.assign(labels[value], {text, shift: moved[i] - at}));
+  spec.signals.push({name: 'labels', value: labels});
+  const shift = {signal: 'labels[datum.value].shift'};
+  // A tick leads from its value to its label.
+  const toLabel = {x2: {scale: 'x', field: 'value', offset: shift}};
+  Object.assign(spec.axes[0], {labelOverlap: false,
+    encode: {labels: {update: {text: {signal: 'labels[datum.value].text'}, dy: shift}}, ticks: {update: toLabel}}});
+  if (isTight) Object.assign(spec.axes[0], {labelAngle: -90, labelAlign: 'right', labelBaseline: 'middle', labelFontSize: size, tickSize: 9});
 }
 
 // Between words there is nothing: points with bars, and no line from one graph to another.
