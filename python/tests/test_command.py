@@ -87,6 +87,17 @@ class CommandLine(unittest.TestCase):
         self.assertTrue(set(broken) <= NOT_IN_SIXTY_LINES, ended.stdout)
         self.assertIn("numpy_ekf: keeps ", ended.stdout)
 
+    def test_a_common_base_is_no_estimator(self):
+        text = (
+            "import fathom\nclass Common(fathom.Estimator):\n    __init__ = pose = len\n"
+            "class Mine(Common):\n    add_keyframe = update = len\n"
+        )
+        path = self.file("common.py", text)
+        ended = self.fathom("list", "estimators", "--plugin", path)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertIn("mine", ended.stdout)
+        self.assertNotIn("common ", ended.stdout)
+
     def test_refusals_are_one_line(self):
         cases = [
             ("import nothing_of_this_name\n", "ModuleNotFoundError"),

@@ -51,6 +51,7 @@ class OfCalls(unittest.TestCase):
     def test_settings_are_a_dict(self):
         self.refused("the study: is empty", lambda: fathom.compare({}, ["ekf"]))
         self.refused("the configuration: is empty", lambda: fathom.run({}))
+        self.refused("x.g2o: ", lambda: fathom.read_g2o("x" * 300 + ".g2o"))
         text = "set: expected a dict as {'seed': 3}, got 'seed=3'"
         self.refused(text, lambda: fathom.compare(ALONE, set="seed=3"))
         self.refused(text, lambda: fathom.run(ALONE, set="seed=3"))
@@ -109,7 +110,7 @@ class OfEstimators(unittest.TestCase):
             fathom.replay(small_log(), Lacks)
 
     def test_a_method_that_looks_misspelt(self):
-        own = {"joint_covarance": misbehaving.WrongShape.joint_covariance, "pose_of": len}
+        own = {"joint_covarance": misbehaving.WrongShape.joint_covariance, "pose_of": len, "poses": len}
         with self.assertWarnsRegex(UserWarning, "'joint_covarance'; did you mean") as warned:
             fathom.options(type("Slips", (misbehaving.Follows,), own))
         self.assertEqual(len(warned.warnings), 1)

@@ -120,6 +120,8 @@ TEST_F(BadFolder, LimitsAreThoseOfTheEnvironment) {
   for (const char* const wrong : {"csv_row=2", "csv_rows", "csv_rows=0", "csv_rows=1e6", "=2"}) {
     EXPECT_THAT(refused_with(wrong), HasSubstr("FATHOM_LIMITS: expected csv_rows=N, ")) << wrong;
   }
+  EXPECT_THAT(refused_with("picture_pixels=1073741825"),
+              HasSubstr("FATHOM_LIMITS: picture_pixels: expected at most 1073741824"));
 }
 
 TEST_F(BadFolder, PicturesAreRefusedByName) {

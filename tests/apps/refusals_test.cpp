@@ -67,6 +67,7 @@ TEST_F(Refusals, OfAFolderOfARun) {
   EXPECT_THAT(refusal({"report", "run"}), HasSubstr(no_study));
   EXPECT_THAT(refusal({"status", "run"}), HasSubstr(no_study));
   EXPECT_THAT(refusal({"check", "run/metrics.json"}), HasSubstr("is JSON; expected"));
+  EXPECT_THAT(refusal({"check", "nope.json"}), Not(HasSubstr("is JSON")));
 }
 
 TEST_F(Refusals, OfNoCache) {
@@ -78,6 +79,10 @@ TEST_F(Refusals, OfNoCache) {
     EXPECT_THAT(refusal({"cache", "--clear", "--cache", folder}), HasSubstr("is no cache"));
   }
   EXPECT_THAT(fathom_done({"cache", "--cache", "empty"}).out, HasSubstr("0 registrations"));
+  write("damaged/registrations.sqlite", "no database");
+  EXPECT_THAT(refusal({"cache", "--cache", "damaged"}), HasSubstr("fathom cache --clear"));
+  EXPECT_THAT(fathom_done({"cache", "--clear", "--cache", "damaged"}).out,
+              HasSubstr("0 registrations"));
 }
 
 TEST_F(Refusals, OfAConfigurationWithoutAKey) {
@@ -85,6 +90,7 @@ TEST_F(Refusals, OfAConfigurationWithoutAKey) {
   for (const char* const command : {"run", "compare", "check"}) {
     EXPECT_THAT(refusal({command, "empty.yaml"}), AllOf(HasSubstr("empty.yaml: is empty")));
   }
+  fathom_done({"check", "empty.yaml", "--set", "dataset.type=simulated_log"});
 }
 
 TEST_F(Refusals, QuietIsAFlagOfAllThatPrint) {

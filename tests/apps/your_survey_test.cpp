@@ -43,6 +43,19 @@ TEST_F(YourSurvey, AFolderNeedsNoConfiguration) {
   EXPECT_THAT(bytes_of("study/table.txt"), HasSubstr("incremental_smoother  1/1 done"));
 }
 
+// As docs/your_survey.md has it.
+TEST_F(YourSurvey, ARunAndAStudyHaveFoldersOfTheirOwn) {
+  simulate("data");
+  fathom_done({"run", "data"});
+  fathom_done({"compare", "data", "--set", "estimators.0.type=ekf"});
+  EXPECT_TRUE(fs::exists(path("runs/data/trajectory.tum")));
+  EXPECT_TRUE(fs::exists(path("runs/data-study/report.html")));
+  EXPECT_THAT(fathom_done({"status", "runs/data", "runs/data-study"}).out,
+              AllOf(HasSubstr("a run, no study"), HasSubstr("1 of 1 runs are done")));
+  EXPECT_THAT(refusal({"merge", "runs/data-study", "--out", "runs/data"}),
+              HasSubstr("runs/data: holds a run; a study needs a folder of its own"));
+}
+
 TEST_F(YourSurvey, InitWritesWhatRunsAndComparesAlike) {
   simulate("data");
   const Ended made = fathom_done({"init", "data", "--out", "config"});

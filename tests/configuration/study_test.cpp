@@ -198,6 +198,8 @@ TEST(ConfigureStudy, RefusesAMetricThatIsNone) {
   EXPECT_THAT(refusal_of_study("report: {metrics: [anees, mean_postion_error_m]}\n"),
               HasSubstr("report.metrics: unknown metric 'mean_postion_error_m'; did you mean "
                         "'mean_position_error_m'?"));
+  EXPECT_THAT(refusal_of_study("report: {metrics: [rpe_N_keyframes_m]}\n"),
+              HasSubstr("'rpe_N_keyframes_m': expected a number in place of N or D"));
   EXPECT_NO_THROW(study_of("report: {metrics: [rpe_7_keyframes_m, relative_anees_2.5_m]}\n"));
 }
 

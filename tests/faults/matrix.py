@@ -83,6 +83,9 @@ class Matrix:
         row["refused" if done.returncode else "went on"] += 1
         out = folder / "out"
         differs = contents.differences(whole, out)
+        # A claim that cannot be read is left where it is: it may be another's.
+        if call == "open" and differs == ["unexpected results.owner"]:
+            differs = []
         complaint = complaint_about_end(done, not differs)
         if complaint:
             self.complain(row, where, complaint + (f" ({differs[0]})" if differs else ""))

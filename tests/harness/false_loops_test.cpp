@@ -59,11 +59,14 @@ TEST(FalseLoops, TheListReadsBack) {
   write_file(folder / "list.csv", false_loops_csv(spoiled));
   const MeasurementLog log = read_g2o(folder / "g.g2o");
   EXPECT_EQ(read_false_loops(folder / "list.csv", log), spoiled.is_false);
+  write_file(folder / "blank.csv", "\n" + false_loops_csv(spoiled));
+  EXPECT_EQ(read_false_loops(folder / "blank.csv", log), spoiled.is_false);
   const auto refused = [&](const std::string& text) {
     write_file(folder / "bad.csv", text);
     return input_error_of([&] { read_false_loops(folder / "bad.csv", log); });
   };
   EXPECT_THAT(refused("from,to\n"), HasSubstr(":1: expected the header registration,from,to"));
+  EXPECT_THAT(refused("\n0,0,40\n"), HasSubstr(":2: expected the header"));
   EXPECT_THAT(refused("registration,from,to\n99,0,40\n"), HasSubstr(":2: '99,0,40' is no"));
   EXPECT_THAT(refused("registration,from,to\n0,0,41\n"), HasSubstr(":2: '0,0,41' is no"));
 }

@@ -87,6 +87,22 @@ TEST(ChartFrame, NoLabelOfAPlaceIsLeftOut) {
   }
 }
 
+TEST(ChartFrame, OfManyPlacesEverySecondOrThirdIsLabelled) {
+  std::vector<std::string> names;
+  std::vector<double> places;
+  for (int i = 0; i < 90; ++i) {
+    names.push_back(std::to_string(1000 + i));
+    places.push_back(i);
+  }
+  const ChartAxis axis = labelled_axis("axis", places, names, 0.5);
+  const std::vector<PlacedText> texts = drawn(axis, axis_over({"y", "m"}, {1.0}, true));
+  expect_tidy(texts, kPage);
+  const auto labels = std::ranges::count_if(
+      texts, [](const PlacedText& one) { return one.text.size() == 4 && one.text[0] == '1'; });
+  EXPECT_GE(labels, 30);
+  EXPECT_LE(labels, 45);
+}
+
 TEST(ChartAxis, OfAGeometricSweepIsLogarithmic) {
   EXPECT_TRUE(are_geometric({0.1, 0.002, 0.005, 0.01, 0.02, 0.05}));
   EXPECT_TRUE(are_geometric({0.1, 1.0}));
