@@ -110,7 +110,8 @@ class OfEstimators(unittest.TestCase):
             fathom.replay(small_log(), Lacks)
 
     def test_a_method_that_looks_misspelt(self):
-        own = {"joint_covarance": misbehaving.WrongShape.joint_covariance, "pose_of": len, "poses": len}
+        own = dict.fromkeys(("pose_of", "poses"), len)
+        own["joint_covarance"] = misbehaving.WrongShape.joint_covariance
         with self.assertWarnsRegex(UserWarning, "'joint_covarance'; did you mean") as warned:
             fathom.options(type("Slips", (misbehaving.Follows,), own))
         self.assertEqual(len(warned.warnings), 1)

@@ -24,9 +24,9 @@ struct NamedLimit {
 using NamedLimits = std::array<NamedLimit, 3>;
 
 NamedLimits limits_of(std::string_view given) {
-  NamedLimits limits{
-      {{"csv_rows", 10'000'000}, {"picture_pixels", 1U << 28U, kOpenCvPixels},
-       {"chunk_bytes", 128'000'000}}};
+  NamedLimits limits{{{"csv_rows", 10'000'000},
+                      {"picture_pixels", 1U << 28U, kOpenCvPixels},
+                      {"chunk_bytes", 128'000'000}}};
   for (const std::string_view word : split(given, ",")) {
     const std::size_t equals = std::min(word.find('='), word.size());
     auto* const limit = std::ranges::find(limits, word.substr(0, equals), &NamedLimit::name);
