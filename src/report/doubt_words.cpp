@@ -170,6 +170,7 @@ std::string words_of(const Doubt& doubt) {
 std::vector<std::string> estimators_of(const Doubt& doubt) {
   const auto named = [](const std::vector<doubt::Figure>& figures) {
     std::vector<std::string> names;
+    names.reserve(figures.size());
     for (const doubt::Figure& figure : figures) names.push_back(figure.estimator);
     return names;
   };

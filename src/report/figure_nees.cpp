@@ -5,12 +5,12 @@
 namespace fathom {
 namespace {
 
-using Points = NeesChart::Points;
+using NeesPoints = NeesChart::Points;
 
 ChartFrame frame_of(const NeesChart& chart, const Box& outer) {
   std::vector<double> keyframes;
   std::vector<double> values;
-  const auto add = [&](const Points& points) {
+  const auto add = [&](const NeesPoints& points) {
     for (const Eigen::Vector2d& point : points) {
       keyframes.push_back(point.x());
       values.push_back(point.y());
@@ -37,8 +37,8 @@ std::vector<LegendEntry> legend_of(const NeesChart& chart,
 
 void draw_nees(Canvas& canvas, const NeesChart& chart, const ChartFrame& frame,
                const std::map<std::string, LineStyle>& styles) {
-  Points band = frame.at(chart.low);
-  const Points high = frame.at(chart.high);
+  NeesPoints band = frame.at(chart.low);
+  const NeesPoints high = frame.at(chart.high);
   band.insert(band.end(), high.rbegin(), high.rend());
   canvas.area(band, palette::grey, 0.25);
   frame.draw(canvas);

@@ -72,8 +72,9 @@ std::vector<Sweep> sweeps_along(std::size_t axis, const StudyResults& results) {
   for (auto& [others, sweep] : sweeps) {
     if (sweep.cells.size() < 2) continue;
     // A line goes from number to number, in whatever order they were given.
+    const std::vector<double>& positions = sweep.positions;
     std::ranges::stable_sort(sweep.cells, {}, [&](std::size_t cell) {
-      return sweep.positions[results.study.places_of(results.cells[cell].cell)[axis]];
+      return positions[results.study.places_of(results.cells[cell].cell)[axis]];
     });
     list.push_back(std::move(sweep));
   }
