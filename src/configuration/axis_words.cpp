@@ -44,6 +44,16 @@ std::string words_of(const StudyAxis& axis) {
   return words;
 }
 
+// The words that all begin with, to the last separator. None of a few letters, which take no room.
+std::size_t words_alike(const std::vector<std::string>& names) {
+  constexpr std::size_t kFew = 6;
+  const auto& [first, last] = std::ranges::minmax(names);
+  const auto length = std::ranges::mismatch(first, last).in1 - first.begin();
+  const std::string alike = first.substr(0, static_cast<std::size_t>(length));
+  const std::size_t words = alike.find_last_of("_- .") + 1;
+  return words < kFew ? 0 : words;
+}
+
 }  // namespace
 
 std::string unit_of(const StudyAxis& axis) {
@@ -62,6 +72,11 @@ std::vector<std::string> ticks_of(const StudyAxis& axis) {
     const std::string name = label.substr(label.rfind('/') + 1);
     if (name.empty() || std::ranges::find(names, name) != names.end()) return axis.labels;
     names.push_back(name);
+  }
+  const std::size_t alike =
+      names.size() < 2 || std::ranges::any_of(names, is_number) ? 0 : words_alike(names);
+  for (std::string& name : names) {
+    if (alike > 0) name = "…" + name.substr(alike);
   }
   return names;
 }

@@ -38,8 +38,8 @@ bool is_run_folder(const fs::path& path) {
 }
 
 void refuse_run_folder(const fs::path& path) {
-  if (is_run_folder(path))
-    throw InputError(path.string(), "is the folder of a run; expected that of a study");
+  if (!is_run_folder(path)) return;
+  throw InputError(path.string(), "is the folder of a run; expected that of a study");
 }
 
 ResultStore ResultStore::open(const fs::path& path) {

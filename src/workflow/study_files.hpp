@@ -16,8 +16,8 @@ void require_no_study(const std::filesystem::path& out);
 /// Throws InputError on the folder of a run, with which a study's files would mix.
 void require_no_run(const std::filesystem::path& out);
 
-/// The same, and where a file of a study's folder would replace one
-/// that it reads: said before anything is computed.
+/// The same, and where a file of a study's folder would replace one that it reads: said before
+/// anything is computed.
 void require_separate(const std::filesystem::path& out, const Study& study,
                       const std::vector<std::filesystem::path>& inputs);
 

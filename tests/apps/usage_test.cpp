@@ -78,6 +78,7 @@ TEST_F(Usage, MisuseIsOneLineAndStatusTwo) {
   const std::vector<std::pair<Arguments, std::string>> cases{
       {{}, "a command is missing (fathom --help lists them)"},
       {{"runn", "a.yaml"}, "unknown command 'runn'; did you mean 'run'?"},
+      {{"help", "runn"}, "unknown command 'runn'; did you mean 'run'?"},
       {{"frobnicate"}, "unknown command 'frobnicate' (fathom --help lists them)"},
       {{"--versoin"}, "unknown flag '--versoin'; did you mean '--version'?"},
       {{"run"}, "'config' is missing: Configuration (YAML), a folder"},

@@ -6,7 +6,8 @@
     tests/faults/matrix.py PROGRAM FAULTS --only merge
     tests/faults/matrix.py PROGRAM FAULTS --kills 200 # a study killed at random moments, alone
 
-PROGRAM is `fathom`, FAULTS the library that is loaded before it (faults.cpp). Whatever fails, the
+PROGRAM is `fathom`, FAULTS the library that is loaded before it (faults.cpp). With TMPDIR on a
+tmpfs no fsync waits for a disk; not below /dev, where nothing fails. Whatever fails, the
 command ends by itself, and either its output is whole or it says why in one line of its own with
 another status than 0; no file of a final name is torn, nothing half made is left, and the same
 command on a machine without faults has the content of an undisturbed one. Exit status 1 where not.
@@ -143,6 +144,8 @@ def main():
     parser.add_argument("--kills", type=int, help="kills alone, so many")
     parser.add_argument("--seed", type=int, default=1, help="of the moments of kills")
     arguments = parser.parse_args()
+    if tempfile.gettempdir().startswith("/dev/"):
+        parser.error("TMPDIR is below /dev, where faults.cpp lets nothing fail; give another")
     with tempfile.TemporaryDirectory(prefix="fathom-faults-") as top:
         bench = Bench(arguments.program, arguments.faults, pathlib.Path(top))
         if arguments.kills is not None:

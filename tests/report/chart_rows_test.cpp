@@ -12,6 +12,7 @@
 #include "report/made_cells.hpp"
 #include "src/report/map_frame.hpp"
 #include "src/report/scaled_unit.hpp"
+#include "src/report/sweep_lines.hpp"
 
 namespace fathom::test {
 namespace {
@@ -41,7 +42,6 @@ EstimatorResults estimator(const std::string& name, double error, double cost) {
   return costing(made(name, {error}), cost);
 }
 
-// By the definition, over whole numbers that tie often.
 TEST(ChartRows, FilesStandByTheirNamesWhereTheseDiffer) {
   const auto ticks = [](const std::vector<std::string>& labels) {
     return ticks_of({.name = "graph", .key = "dataset.path", .labels = labels});
@@ -50,8 +50,29 @@ TEST(ChartRows, FilesStandByTheirNamesWhereTheseDiffer) {
   EXPECT_THAT(ticks({"/a/log.g2o", "/b/log.g2o"}), ElementsAre("/a/log.g2o", "/b/log.g2o"));
   EXPECT_THAT(ticks({"a/", "b"}), ElementsAre("a/", "b"));
   EXPECT_THAT(ticks({"sift", "orb"}), ElementsAre("sift", "orb"));
+  EXPECT_THAT(ticks({"dive_of_may_1.g2o", "dive_of_may_2.g2o"}), ElementsAre("…1.g2o", "…2.g2o"));
+  EXPECT_THAT(ticks({"dive_of_may", "dive_of_mars_2"}), ElementsAre("…may", "…mars_2"));
+  EXPECT_THAT(ticks({"dive_of_may"}), ElementsAre("dive_of_may"));
+  EXPECT_THAT(ticks({"100000.5", "100000.6"}), ElementsAre("100000.5", "100000.6"));
+  EXPECT_THAT(ticks({"M3500a.g2o", "M3500b.g2o"}), ElementsAre("M3500a.g2o", "M3500b.g2o"));
 }
 
+TEST(ChartRows, ASweepGoesFromNumberToNumber) {
+  const auto order = [](const std::vector<std::string>& labels) {
+    std::vector<CellResults> cells;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      cells.push_back(cell_of({estimator("ekf", 1.0, 1.0)}));
+      cells.back().cell = i;
+    }
+    StudyResults results = study_of(std::move(cells), 1, 1);
+    results.study.axes = {{.name = "noise", .key = "noise", .labels = labels}};
+    return sweeps_along(0, results).at(0).cells;
+  };
+  EXPECT_THAT(order({"0.1", "0.002", "0.05"}), ElementsAre(1, 2, 0));
+  EXPECT_THAT(order({"sift", "orb", "akaze"}), ElementsAre(0, 1, 2));
+}
+
+// By the definition, over whole numbers that tie often.
 TEST(ChartRows, NoneIsBeatenOnTheFrontAndAllOthersAre) {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> draw(1, 6);

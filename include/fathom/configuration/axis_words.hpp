@@ -16,7 +16,7 @@ std::string unit_of(const StudyAxis& axis);
 std::string title_of(const StudyAxis& axis);
 
 /// What stands at the places of a drawn axis: the labels, of files in folders the names alone where
-/// no two are the same.
+/// no two are the same, and without the words that all begin with.
 std::vector<std::string> ticks_of(const StudyAxis& axis);
 
 /// "heading 0.01 rad"

@@ -53,6 +53,7 @@ struct RunRecord {
 /// The name of a study's results in its folder.
 inline constexpr const char* kResultsFile = "results.sqlite";
 
+/// One with figures of a run, and no study's results.
 bool is_run_folder(const std::filesystem::path& path);
 
 /// Throws InputError of the folder of a run, which is no study's.
