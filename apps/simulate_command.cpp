@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "apps/command.hpp"
@@ -85,6 +86,18 @@ std::string folder_configuration(const Configuration& configuration, const Surve
          config_text(lines);
 }
 
+// What a folder of this layout says of itself: that with it nothing is lost that was measured.
+const std::string kSimulatedBody = "comment: simulated by fathom\n";
+
+void refuse_measured_survey(const std::filesystem::path& mav0) {
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(mav0, error))) return;
+  const std::filesystem::path body = mav0 / "body.yaml";
+  if (std::filesystem::is_regular_file(body, error) && read_text(body) == kSimulatedBody) return;
+  throw InputError(mav0.string(),
+                   "is not of 'simulate', which would replace it: name another folder by --out");
+}
+
 void simulate(const SimulateFlags& flags, Context& context) {
   const Settings settings = flags.common.settings(flags.config);
   const Configuration configuration =
@@ -98,12 +111,14 @@ void simulate(const SimulateFlags& flags, Context& context) {
     refuse_replacing(std::filesystem::path(out) / name,
                      workflow::inputs_of(flags.config, settings));
   }
+  refuse_measured_survey(std::filesystem::path(out) / "mav0");
   const Survey survey(configuration);
   StagedFolder folder(out);
   const std::string run = folder_configuration(configuration, survey, folder.target().string());
   // Visual odometry is made again from the pictures: its covariances follow from what a run
   // estimates of them.
   write_image_folder(survey.measured(), folder.path(), survey.readings());
+  write_file(folder.path() / "mav0" / "body.yaml", kSimulatedBody);
   write_file(folder.path() / "run.yaml", run);
   folder.commit();
   context.status = kDone;

@@ -86,6 +86,7 @@ void Smoother::bridge(const Bridge& bridge) {
 SmootherResult Smoother::add_registrations(std::span<const RelativePose> registrations) {
   // 1. New factors, and the variables that they touch.
   const int edges_before = problem_.edge_count();
+  const double cost_before = gradient_.cost();
   add_loops(registrations);
   SmootherResult result{Outcome::numerical_failure, 0};
   // 2. The top of the tree that has these, eliminated again, with the keyframes that are new.
@@ -93,6 +94,11 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
     // 3. Steps: each solves the tree for what has changed, is taken where F falls, and marks the
     //    variables that have left their linearisation point.
     result = iterate();
+    // A redescending loss has minima that no start for least squares leads to.
+    if (is_done(result.outcome) && !problem_.loops.is_on() &&
+        search_.is_due(gradient_.cost() - cost_before, registrations.size())) {
+      search_lower(result);
+    }
     // 4. Those are linearised again; a matrix that leaves a pose open is a failure.
     if (!relinearise() || !keeps_digits()) result.outcome = Outcome::numerical_failure;
   }

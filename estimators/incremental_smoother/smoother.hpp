@@ -9,6 +9,7 @@
 
 #include "estimators/incremental_smoother/clique_tree.hpp"
 #include "estimators/incremental_smoother/gradient.hpp"
+#include "estimators/support/pose_graph/minimum_search.hpp"
 #include "fathom/estimation/estimator.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/estimation/relative_estimator.hpp"
@@ -166,6 +167,7 @@ class Smoother {
   void drop_tree();
   bool rebuild();
   bool keeps_digits();
+  void search_lower(SmootherResult& result);
   SmootherResult iterate();
   bool prepare_step(const Progress& progress);
   double negligible_bend() const;
@@ -215,6 +217,7 @@ class Smoother {
 
   Outside outside_;
   Marks marks_;
+  pose_graph::MinimumSearch search_;
   Revisions revisions_;
   Counts counts_;
 };

@@ -1,4 +1,4 @@
-// What a Smoother does where a step or an update fails.
+// What a Smoother does where a step or an update fails, or may have ended in a wrong minimum.
 
 #include "estimators/incremental_smoother/smoother.hpp"
 #include "estimators/support/pose_graph/wide.hpp"
@@ -58,6 +58,20 @@ SmootherResult Smoother::solve_rows() {
     outside_.steps.clear();
   }
   return {solved.outcome, solved.iterations};
+}
+
+// Takes a lower minimum, where there is one.
+void Smoother::search_lower(SmootherResult& result) {
+  ++counts_.batch_solves;
+  pose_graph::ExtendedGraph graph = extended(problem().edges);
+  const auto found = search_.run(graph.edges, graph.nodes, gradient_.cost(),
+                                 {limits_.max_iterations, limits_.tolerance});
+  if (!found) return;
+  result.outcome = found->outcome;
+  result.iterations += found->iterations;
+  slack_ = 0.0;
+  place(graph);
+  if (!rebuild()) result.outcome = Outcome::numerical_failure;
 }
 
 void Smoother::place(const pose_graph::ExtendedGraph& solved) {

@@ -114,7 +114,7 @@ SolveResult Graph::solve(Start start, const SolveLimits& limits) {
   ExtendedGraph graph = states_.extended(edges_, nodes_);
   const SolveResult result =
       pose_graph::solve_batch(graph.edges, graph.nodes, start, limits, workers());
-  if (!spread_.is_wide()) return accept(result, graph);
+  if (!spread_.is_wide()) return accept(searched(result, start, graph, limits), graph);
   const bool keeps_digits =
       is_done(result.outcome) && pose_graph::sums_keep_digits(graph.edges, graph.nodes);
   if (keeps_digits && result.outcome == Outcome::converged) return accept(result, graph);

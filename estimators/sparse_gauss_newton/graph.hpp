@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "estimators/sparse_gauss_newton/robust.hpp"
+#include "estimators/support/pose_graph/minimum_search.hpp"
 #include "estimators/support/pose_graph/picture_states.hpp"
 #include "fathom/estimation/precision.hpp"
 #include "fathom/estimation/registry.hpp"
@@ -82,6 +83,8 @@ class Graph {
   RobustResult robust_result(ExtendedGraph& graph, const SolveLimits& limits,
                              std::span<const double> known);
   SolveResult accept(const SolveResult& result, const ExtendedGraph& solved);
+  SolveResult searched(const SolveResult& result, Start start, ExtendedGraph& solved,
+                       const SolveLimits& limits);
 
   RobustOptions robust_;
   SharedErrorModel shared_errors_;
@@ -97,6 +100,9 @@ class Graph {
   std::vector<double> weights_;     ///< by edge
   std::optional<SquaredScales> squared_scales_;
   InformationSpread spread_;
+  pose_graph::MinimumSearch search_;
+  double cost_ = 0.0;       ///< F after the last update
+  std::size_t solved_ = 0;  ///< edges then
   std::size_t judged_ = 0;  ///< edges of the last robust solve that was done
   /// Of all keyframes; absent: to be computed, empty: could not be.
   std::optional<std::vector<Eigen::Matrix3d>> marginals_;

@@ -75,6 +75,21 @@ TEST_F(Inputs, SimulateKeepsItsConfigurationAndItsFloor) {
               {"simulate", "c.yaml", "--out", "survey", "--set", "dataset.world.picture=" + floor});
 }
 
+// What a vehicle has recorded cannot be made again, what 'simulate' made can.
+TEST_F(Inputs, SimulateKeepsASurveyThatItDidNotMake) {
+  write("c.yaml", kSmallSurvey);
+  fathom_done({"simulate", "c.yaml", "--out", "survey"});
+  fathom_done({"simulate", "c.yaml", "--out", "survey"});
+  for (const char* body : {"", "comment: reef, dive 3\n"}) {
+    fs::remove(path("survey/mav0/body.yaml"));
+    if (*body != '\0') write("survey/mav0/body.yaml", body);
+    const std::string picture = read_file(path("survey/mav0/cam0/data/0.png"));
+    EXPECT_THAT(refusal({"simulate", "c.yaml", "--out", "survey", "--seed", "8"}),
+                HasSubstr("survey/mav0: is not of 'simulate', which would replace it"));
+    EXPECT_EQ(read_file(path("survey/mav0/cam0/data/0.png")), picture);
+  }
+}
+
 TEST_F(Inputs, RunKeepsItsConfiguration) {
   write("out/metrics.json", kSmallSurvey);
   expect_kept("out/metrics.json", {"run", "out/metrics.json", "--out", "out"});

@@ -26,7 +26,17 @@ std::string record(const std::string& header, const std::string& data) {
   return with_length(header) + with_length(data);
 }
 
-const std::string kBagHeader = with_length("op=\x03") + with_length("index_pos=12345678");
+const std::string kVersion = "#ROSBAG V2.0\n";
+
+std::string bag_header(std::uint64_t index) {
+  return record(with_length("op=\x03") +
+                    with_length("index_pos=" +
+                                std::string(reinterpret_cast<const char*>(&index), sizeof index)),
+                "");
+}
+
+const std::size_t kFirst = (kVersion + bag_header(0)).size();  ///< where the records begin
+
 const std::string kTopic = with_length("topic=/a");
 // Of a field that is said to be ten bytes longer than it is.
 const std::string kTooLong = with_length("topic=/a", 10);
@@ -38,9 +48,9 @@ std::string chunk(const std::string& records) {
 
 class Ros1Records : public ::testing::Test {
  protected:
-  std::string refusal(const std::string& records) const {
+  std::string refusal(const std::string& records, std::uint64_t index = kFirst) const {
     const std::filesystem::path bag = folder_ / "a.bag";
-    std::ofstream(bag, std::ios::binary) << "#ROSBAG V2.0\n" << record(kBagHeader, "") << records;
+    std::ofstream(bag, std::ios::binary) << kVersion << bag_header(index) << records;
     return input_error_of([&] { check_ros1_records(bag); });
   }
 
@@ -62,6 +72,19 @@ TEST_F(Ros1Records, AFieldEndsWithinItsHeader) {
 TEST_F(Ros1Records, ARecordOfAChunkEndsWithinIt) {
   EXPECT_THAT(refusal(chunk(with_length(kConnection) + with_length("", 4)) + record(kTopic, "")),
               HasSubstr("cut short"));
+}
+
+// librosbag reads connections from there on.
+TEST_F(Ros1Records, TheIndexBeginsWithARecord) {
+  const std::string inner = chunk(record(kConnection, kTopic));
+  const std::string records = inner + record(kConnection, kTopic);
+  EXPECT_EQ(refusal(records, kFirst + inner.size()), "(nothing thrown)");
+  EXPECT_EQ(refusal(records, kFirst + records.size()), "(nothing thrown)");
+  EXPECT_THAT(refusal(records, 0), HasSubstr("has no index"));
+  for (const std::uint64_t index : {std::uint64_t{1}, std::uint64_t{kFirst + 1},
+                                    std::uint64_t{kFirst + inner.size() - 5}, UINT64_MAX}) {
+    EXPECT_THAT(refusal(records, index), HasSubstr("names what is not there")) << index;
+  }
 }
 
 }  // namespace

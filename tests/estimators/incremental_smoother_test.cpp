@@ -2,6 +2,10 @@
 
 #include "estimators/incremental_smoother/incremental_smoother.hpp"
 
+#include <array>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "estimators/incremental_smoother/smoother.hpp"
@@ -128,7 +132,7 @@ TEST(IncrementalSmoother, EliminatesLittleAgainForALocalLoop) {
   // Of up to 6000 keyframes.
   EXPECT_LT(eliminated_per_update.back(), 250.0);
   EXPECT_LT(eliminated_per_update.back(), 3.0 * eliminated_per_update.front());
-  EXPECT_EQ(counts_of(*estimator).batch_solves, 0);
+  EXPECT_LE(counts_of(*estimator).batch_solves, 1);  // by chance (MinimumSearch)
 }
 
 TEST(IncrementalSmoother, AnUpdateThatFailsIsForgotten) {
@@ -173,8 +177,51 @@ TEST(IncrementalSmoother, SolvesTheWholeGraphWhereItsStepsFail) {
   const auto ours = test::solved("incremental_smoother", log, exactly);
   const auto whole = test::solved("sparse_gauss_newton", log, exactly);
   EXPECT_GT(counts_of(*ours).batch_solves, 0);
-  const double optimum = chi2(log, poses_of(*whole));
-  EXPECT_NEAR(chi2(log, poses_of(*ours)), optimum, 1e-8 * optimum);
+  EXPECT_LT(chi2(log, poses_of(*ours)), (1.0 + 1e-8) * chi2(log, poses_of(*whole)));
+}
+
+// Once or twice round a rectangle, and on along its first side, with a heading that is lost where
+// the loops begin.
+MeasurementLog drifted_circuit(const std::vector<int>& legs, std::size_t around, int every,
+                               std::uint64_t seed) {
+  RandomStream random(seed, "drifted circuit");
+  std::vector<Pose> truth{{0.0, 0.0, 0.0}};
+  for (const int steps : legs) {
+    for (int i = 0; i < steps; ++i) {
+      const double turn = i == 0 && truth.size() > 1 ? M_PI / 2 : 0.0;
+      truth.push_back(compose(compose(truth.back(), {0.0, 0.0, turn}), {0.5, 0.0, 0.0}));
+    }
+  }
+  MeasurementLog log(truth[0]);
+  for (std::size_t k = 1; k < truth.size(); ++k) {
+    log.add_keyframe(test::measured(truth, k - 1, k, 0.01, 0.08, random));
+    if (k > around + 2 && k % static_cast<std::size_t>(every) == 0) {
+      log.add_registration(test::measured(truth, k - around, k, 0.005, 0.003, random));
+    }
+  }
+  return log;
+}
+
+// Without the search for a lower minimum some of these end at up to twenty times the least F.
+TEST(IncrementalSmoother, IsAtTheLeastCostWhereTheHeadingWasLost) {
+  long batch_solves = 0;
+  int logs = 0;
+  for (const auto& [legs, around] : std::vector<std::pair<std::vector<int>, std::size_t>>{
+           {{60, 20, 60, 20, 15}, 160},
+           {{80, 40, 80, 40, 10}, 240},
+           {{40, 40, 40, 40, 40, 40, 40, 40, 10}, 160}}) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+      const int every = std::array{4, 10, 1}[seed % 3];
+      const MeasurementLog log = drifted_circuit(legs, around, every, seed);
+      const auto ours = test::solved("incremental_smoother", log);
+      const auto whole = test::solved("sparse_gauss_newton", log);
+      const double least = chi2(log, poses_of(*whole));
+      EXPECT_LT(chi2(log, poses_of(*ours)), 1.01 * least) << seed;
+      batch_solves += counts_of(*ours).batch_solves;
+      ++logs;
+    }
+  }
+  EXPECT_LT(batch_solves, 3 * logs);
 }
 
 // Of a loop that the sums of the tree do not carry there is no tree, and the gate asks the graph.

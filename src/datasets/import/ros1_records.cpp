@@ -72,6 +72,7 @@ class Records {
   /// its records are the next ones. What an index names must be there.
   std::string next() {
     const std::uint64_t begin = position_;
+    if (begin >= chunk_end_) records_.push_back(begin);
     std::string header = fields();
     const auto kind = field_number<std::uint8_t>(header, "op=");
     // A connection's data is a header, too.
@@ -93,6 +94,16 @@ class Records {
     return header;
   }
 
+  /// Whether a record of the file begins there, one of a chunk apart, or the file ends.
+  bool has_record_at(std::uint64_t position) const {
+    return position == size_ || std::ranges::binary_search(records_, position);
+  }
+
+  [[noreturn]] void refuse_index() const {
+    throw InputError(path_.string(),
+                     "has an index that names what is not there; 'rosbag reindex' makes it anew");
+  }
+
   [[noreturn]] void refuse_chunk(std::uint64_t bytes) const {
     throw InputError(path_.string(), "has a chunk of " + std::to_string(bytes) + " bytes; " +
                                          limit_text(Limit::chunk_bytes));
@@ -105,11 +116,6 @@ class Records {
   }
 
  private:
-  [[noreturn]] void refuse_index() const {
-    throw InputError(path_.string(),
-                     "has an index that names what is not there; 'rosbag reindex' makes it anew");
-  }
-
   void begin_chunk(std::uint64_t begin, const std::string& header, std::uint32_t bytes) {
     chunks_.push_back(begin);
     is_plain_ = field(header, "compression=") == "none";
@@ -175,7 +181,8 @@ class Records {
   std::ifstream file_;
   std::uint64_t size_;
   std::uint64_t position_ = 0;
-  std::vector<std::uint64_t> chunks_;       ///< where they begin
+  std::vector<std::uint64_t> records_;      ///< where they begin, but those of chunks
+  std::vector<std::uint64_t> chunks_;       ///< of them the chunks
   bool is_plain_ = false;                   ///< whether the last chunk is not compressed
   std::uint64_t chunk_begin_ = 0;           ///< of its data
   std::uint64_t chunk_end_ = 0;             ///< of the last one that was looked into
@@ -187,8 +194,10 @@ class Records {
 
 void check_ros1_records(const std::filesystem::path& path) {
   Records records(path);
-  if (records.is_at_end() || field_number<std::uint64_t>(records.next(), "index_pos=") == 0)
-    records.refuse_cut();
+  if (records.is_at_end()) records.refuse_cut();
+  // Where librosbag goes on.
+  const auto index = field_number<std::uint64_t>(records.next(), "index_pos=");
+  if (index == 0) records.refuse_cut();
   while (!records.is_at_end()) {
     const std::string header = records.next();
     if (field_number<std::uint8_t>(header, "op=") != kChunk) continue;
@@ -196,6 +205,7 @@ void check_ros1_records(const std::filesystem::path& path) {
     const auto bytes = field_number<std::uint32_t>(header, "size=");
     if (bytes > value_of(Limit::chunk_bytes)) records.refuse_chunk(bytes);
   }
+  if (!records.has_record_at(index)) records.refuse_index();
 }
 
 }  // namespace fathom
