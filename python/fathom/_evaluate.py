@@ -14,7 +14,8 @@ def evaluate(estimate, reference, *, alignment="origin", covariances=None) -> di
     covariances: N x 3 x 3 of the estimate's poses, world axes; with them the ANEES is told, of
         'none' or 'origin': in place of 'se2', which would take away errors that the covariances
         speak of, it is of 'origin', as in studies.
-    Returns a dict; what is not known is absent. Raises InputError.
+    Returns a dict; what is not known is absent. Raises InputError, also on a pose that is not
+    finite and on a covariance that is not positive definite; the first one may be zero.
     """
     return Named("metric", _fathom._evaluate(estimate, reference, alignment, covariances))
 

@@ -15,6 +15,7 @@
 #include "fathom/evaluation/paired.hpp"
 #include "fathom/evaluation/proportion.hpp"
 #include "fathom/evaluation/statistics.hpp"
+#include "fathom/geometry/covariance.hpp"
 #include "fathom/geometry/trajectory.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
@@ -34,11 +35,36 @@ Alignment alignment_of(const std::string& name) {
   throw InputError("alignment: " + not_one_of(name, known));
 }
 
+// Else accuracy would be absent without a word.
+void require_finite_poses(const std::vector<Pose>& poses, const std::string& of) {
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (is_finite(poses[k])) continue;
+    throw InputError(fmt::format(
+        "pose {} of the {} is not finite; expected x, y (m) and theta (rad), or leave it out of "
+        "both",
+        k, of));
+  }
+}
+
+// The ANEES is of all but the first, whose covariance is zero where the start is known.
+void require_definite(const std::vector<Eigen::Matrix3d>& covariances) {
+  for (std::size_t k = 0; k < covariances.size(); ++k) {
+    const Eigen::Matrix3d& C = covariances[k];
+    if (k == 0 ? is_positive_semidefinite(C) : is_positive_definite(C)) continue;
+    throw InputError(fmt::format(
+        "covariance {} is not positive definite; expected variances > 0 and correlations between "
+        "-1 and 1{}",
+        k, k == 0 ? ", or all zero of a start that is known" : ""));
+  }
+}
+
 py::dict evaluate_poses(const py::object& estimate, const py::object& reference,
                         const std::string& alignment, const py::object& covariances) {
   const std::vector<Pose> ours = poses_of(estimate, "estimate");
   const std::vector<Pose> theirs = poses_of(reference, "reference");
   const Alignment how = alignment_of(alignment);
+  require_finite_poses(ours, "estimate");
+  require_finite_poses(theirs, "reference");
   py::dict row;
   if (const auto judged = accuracy(ours, theirs, how)) {
     row["mean_position_error_m"] = judged->mean_position_error_m;
@@ -51,8 +77,9 @@ py::dict evaluate_poses(const py::object& estimate, const py::object& reference,
   if (covariances.is_none()) return row;
   // An alignment to the reference would take away part of what the covariances speak of.
   const Alignment of_start = how == Alignment::se2 ? Alignment::origin : how;
-  const auto honest =
-      consistency(ours, theirs, symmetric_matrices_of(covariances, "covariances"), of_start);
+  const auto matrices = symmetric_matrices_of(covariances, "covariances");
+  require_definite(matrices);
+  const auto honest = consistency(ours, theirs, matrices, of_start);
   if (!honest) return row;
   row["anees"] = honest->anees;
   row["position_anees"] = honest->position_anees;

@@ -91,6 +91,31 @@ class Evaluation(unittest.TestCase):
         with self.assertRaisesRegex(fathom.InputError, r"covariances\[1\]: expected a symmetric"):
             fathom.evaluate(moved, reference, covariances=covariances)
 
+    def test_what_cannot_be_judged_is_refused(self):
+        poses = numpy.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0.0]])
+        for value, k in ((math.nan, 0), (math.inf, 3), (-math.inf, 1)):
+            for column in range(3):
+                wrong = poses.copy()
+                wrong[k, column] = value
+                for name, call in (
+                    ("estimate", lambda: fathom.evaluate(wrong, poses)),
+                    ("reference", lambda: fathom.evaluate(poses, wrong, alignment="se2")),
+                ):
+                    with self.assertRaises(fathom.InputError) as caught:
+                        call()
+                    text = f"pose {k} of the {name} is not finite; expected x, y"
+                    self.assertTrue(str(caught.exception).startswith(text), caught.exception)
+                    self.assertNotIn("\n", str(caught.exception))
+        right = numpy.tile(0.09 * numpy.eye(3), (4, 1, 1))
+        flat = right.copy()
+        flat[2, 0, 1] = flat[2, 1, 0] = 0.1
+        for wrong, k in ((-right, 0), (0 * right, 1), (flat, 2)):
+            with self.assertRaisesRegex(fathom.InputError, f"^covariance {k} is not positive"):
+                fathom.evaluate(poses, poses, covariances=wrong)
+        known_start = right.copy()
+        known_start[0] = 0
+        self.assertIn("anees", fathom.evaluate(poses, poses, covariances=known_start))
+
     def test_what_read_tum_refuses_is_not_written(self):
         poses = numpy.array([[0, 0, 0], [1, 0, 0.0]])
         with tempfile.TemporaryDirectory() as folder:

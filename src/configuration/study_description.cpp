@@ -96,6 +96,14 @@ std::string StudyDescription::selected_by(std::size_t cell) const {
   return "";
 }
 
+bool StudyDescription::considers_shared_errors(std::size_t cell,
+                                               const std::string& estimator) const {
+  const auto found = std::ranges::find(estimators, estimator, &StudyEstimator::name);
+  if (found == estimators.end()) return false;
+  const std::string prefix = "estimators." + std::to_string(found - estimators.begin()) + ".";
+  return value_of(*this, cell, prefix + "shared_errors") == "consider";
+}
+
 std::string StudyDescription::alignment_of(std::size_t cell) const {
   return swept_value(*this, cell, "evaluation.alignment").value_or(alignment);
 }

@@ -2,16 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "fathom/core/chi_squared.hpp"
+#include "fathom/core/median.hpp"
 #include "fathom/core/text.hpp"
 
 namespace fathom {
 
+namespace {
+
+// Of a χ² with three degrees of freedom.
+constexpr double kMedianNis = 2.366;
+
+NisSpread spread_of(std::vector<double> nis) {
+  if (nis.empty()) return {};
+  const double sum = std::accumulate(nis.begin(), nis.end(), 0.0);
+  const double largest = *std::ranges::max_element(nis);
+  return {nis.size(), sum / static_cast<double>(nis.size()), upper_median(std::move(nis)), largest};
+}
+
+}  // namespace
+
 bool MapFit::estimate_fits() const {
   constexpr double kProbability = 0.99;
   const double scale = std::max(1.0, per_degree_of_freedom());
-  return chi2 - chi2_optimum <= scale * chi_squared_quantile(kProbability, unknowns);
+  // Truth itself has an F of one a row on average, however errors are shared; gains that allow for
+  // them lead no further off than this.
+  const double most = considers_shared_errors ? 3.0 * degrees_of_freedom
+                                              : chi_squared_quantile(kProbability, unknowns);
+  return chi2 - chi2_optimum <= scale * most;
+}
+
+double MapFit::largest_nis_by_chance() const {
+  constexpr double kChance = 1e-6;
+  const auto count = static_cast<double>(std::max<std::size_t>(1, registrations.count));
+  return std::max(1.0, per_degree_of_freedom()) * chi_squared_quantile(1.0 - kChance / count, 3.0);
+}
+
+// By the loops, not by the steps: one false loop of a chain bends all its steps alike, and slips of
+// dead reckoning are few steps, as those are that a false loop bends.
+StepBlame MapFit::step_blame() const {
+  constexpr std::size_t kFewest = 8;
+  constexpr double kFewMiss = 0.2;
+  constexpr double kAlike = 0.5;
+  if (registrations.count < kFewest) return StepBlame::unclear;
+  const double loops = registrations.median_to_mean();
+  if (loops < kFewMiss && registrations.median < 2.0 * kMedianNis) return StepBlame::loops;
+  if (loops < kAlike) return StepBlame::unclear;
+  const bool do_most_steps_fit = steps.median < 2.0 * kMedianNis && steps.median_to_mean() < 0.1;
+  return do_most_steps_fit ? StepBlame::slips : StepBlame::covariance;
 }
 
 std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> estimate,
@@ -27,16 +67,23 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
   fit.chi2_optimum = optimum.chi2;
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   Eigen::Vector3d variances = Eigen::Vector3d::Zero();
+  std::vector<double> of_steps;
+  std::vector<double> of_registrations;
   for (std::size_t k = 1; k < log.size(); ++k) {
     const RelativePose& step = log.arrival(k).step;
     const Eigen::Vector3d e =
         residual(step.motion, optimum.poses[step.from], optimum.poses[step.to]);
-    if (!step.is_hole) fit.steps_at_optimum += e.dot(step.information * e);
+    if (!step.is_hole) of_steps.push_back(e.dot(step.information * e));
     for (const RelativePose& z : log.arrival(k).registrations) {
-      squares += residual(z.motion, optimum.poses[z.from], optimum.poses[z.to]).cwiseAbs2();
+      const Eigen::Vector3d off = residual(z.motion, optimum.poses[z.from], optimum.poses[z.to]);
+      of_registrations.push_back(off.dot(z.information * off));
+      squares += off.cwiseAbs2();
       variances += z.covariance().diagonal();
     }
   }
+  fit.steps_at_optimum = std::accumulate(of_steps.begin(), of_steps.end(), 0.0);
+  fit.steps = spread_of(std::move(of_steps));
+  fit.registrations = spread_of(std::move(of_registrations));
   const auto count = static_cast<double>(log.registration_count());
   fit.registration_rms_m = std::sqrt((squares.x() + squares.y()) / count);
   fit.registration_rms_rad = std::sqrt(squares.z() / count);
@@ -48,6 +95,32 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
 }
 
 namespace {
+
+std::string nis_text(const NisSpread& nis) {
+  return "(NIS: median " + short_number(nis.median, 2) + ", mean " + short_number(nis.mean, 2) +
+         ")";
+}
+
+// What follows "… of F is of dead reckoning, ".
+std::string step_remark(const MapFit& fit) {
+  const std::string loops = nis_text(fit.registrations);
+  switch (fit.step_blame()) {
+    case StepBlame::loops:
+      return "most loops fit and few do not " + loops +
+             ", so these are wrong and bend it (a robust loss, a gate), or it slips there";
+    case StepBlame::covariance:
+      return "and loops miss alike " + loops +
+             ", so its covariance is too small for what they say (dataset.added_noise), unless "
+             "most of them are wrong";
+    case StepBlame::slips:
+      return "of few steps " + nis_text(fit.steps) + ", and loops fit each other " + loops +
+             ", so it slips there, or its covariance is too small (dataset.added_noise)";
+    case StepBlame::unclear:
+      break;
+  }
+  return "so either its covariance is too small (dataset.added_noise), or some loops are wrong and "
+         "bend it (a robust loss, a gate; compare F with estimator.loss)";
+}
 
 std::string misfit_remark(const MapFit& fit, bool set_up_is_wrong) {
   const double of_steps = fit.steps_at_optimum / fit.chi2_optimum;
@@ -61,16 +134,27 @@ std::string misfit_remark(const MapFit& fit, bool set_up_is_wrong) {
            " % of F is of absolute measurements, so their covariances are too small or some are "
            "wrong (a robust loss, a gate)";
   }
-  return text + short_number(100.0 * of_steps, 2) + " % of F is of dead reckoning, so " +
+  return text + short_number(100.0 * of_steps, 2) + " % of F is of dead reckoning, " +
          (of_steps > 0.5
-              ? "its covariance is too small for what loops say (dataset.added_noise)"
-              : "covariances of registrations are too small (front_end.covariance) or some loops "
-                "are wrong (a robust loss, a gate): registrations are off by " +
+              ? step_remark(fit)
+              : "so covariances of registrations are too small (front_end.covariance) or some "
+                "loops are wrong (a robust loss, a gate): registrations are off by " +
                     short_number(fit.registration_rms_m, 2) + " m and " +
                     short_number(fit.registration_rms_rad, 2) +
                     " rad there (rms), where their covariances say " +
                     short_number(fit.registration_sigma_m, 2) + " m and " +
                     short_number(fit.registration_sigma_rad, 2) + " rad");
+}
+
+std::string largest_nis_text(const MapFit& fit) {
+  return "NIS " + short_number(fit.registrations.largest, 3) + ", and chance leaves " +
+         short_number(fit.largest_nis_by_chance(), 3) + " at most";
+}
+
+std::string contradiction_remark(const MapFit& fit) {
+  return "a loop contradicts the other measurements: it has " + largest_nis_text(fit) +
+         ", where F is at its best; some loops are wrong (a robust loss, a gate), or covariances "
+         "are too small";
 }
 
 std::string left_out_remark(const MapFit& fit, const std::string& estimator) {
@@ -79,14 +163,27 @@ std::string left_out_remark(const MapFit& fit, const std::string& estimator) {
   return estimator + " rejected or weighed down " + what + " of which most of F is: F is " +
          short_number(fit.chi2, 6) + " with all " + what + ", " + short_number(*fit.chi2_used, 6) +
          " with what it used. Either these are false, or it lost right ones; a batch solve of all "
-         "cannot tell, as it does not fit them either (F per degree of freedom " +
-         short_number(fit.per_degree_of_freedom()) + "). " +
+         "cannot tell, as it does not fit them either (" +
+         (fit.is_far_above_chance()
+              ? "F per degree of freedom " + short_number(fit.per_degree_of_freedom())
+              : "a loop has " + largest_nis_text(fit)) +
+         "). " +
          (is_absolute ? "See whether headings and fixes are in the same axes, and compare back "
                         "ends with and without them"
                       : "Compare back ends with a robust loss");
 }
 
 }  // namespace
+
+bool takes_shared_errors_as(const std::string& word, const MeasurementLog& log,
+                            const EstimatorConfiguration& estimator,
+                            const EstimatorRegistry& registry) {
+  if (!log.tells_shared_errors()) return false;
+  const auto in_force = estimator_options(estimator, registry.find(estimator.type));
+  return std::ranges::any_of(in_force, [&](const auto& option) {
+    return option.first == "shared_errors" && option.second == word;
+  });
+}
 
 std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estimator,
                                      const std::string& solver, bool set_up_is_wrong) {
@@ -103,8 +200,10 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
                       short_number(fit.chi2, 6) + ", and " + short_number(fit.chi2_optimum, 6) +
                       " where a batch solve of the same log ends; " + solver + " would do");
   }
-  if (fit.measurements_disagree()) {
+  if (fit.is_far_above_chance()) {
     remarks.push_back(misfit_remark(fit, set_up_is_wrong));
+  } else if (fit.is_one_contradicted() && !set_up_is_wrong) {
+    remarks.push_back(contradiction_remark(fit));
   }
   return remarks;
 }

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "fathom/core/files.hpp"
+#include "fathom/core/text.hpp"
 #include "g2o_file.hpp"
 #include "graph_components.hpp"
 
@@ -93,6 +94,19 @@ void check_components(const G2oFile& file, GraphSummary& summary, const G2oFault
   count_steps(file, components, summary);
 }
 
+// Headings are wrapped as they are read.
+std::size_t count_turned_edges(const std::string& content) {
+  std::size_t count = 0;
+  for (const TextLine& line : lines_of(content)) {
+    if (!line.text.starts_with("EDGE_SE2 ") && !line.text.starts_with("EDGE2 ")) continue;
+    if (line.text.size() > kLongestRow) continue;
+    const auto fields = split(line.text);
+    const auto heading = fields.size() > 5 ? parse_real(fields[5]) : std::nullopt;
+    if (heading && std::abs(*heading) > 2.0 * M_PI) ++count;
+  }
+  return count;
+}
+
 // What refers to nothing is left out of what follows.
 void leave_out_strays(G2oFile& file) {
   const auto keyframe_of = file.keyframes();
@@ -118,6 +132,7 @@ GraphSummary summarise_graph(const std::filesystem::path& path, const GraphOptio
   summary.vertices = file.vertices.size();
   summary.poses = file.keyframes().size();
   summary.edges = file.edges.size();
+  summary.turned_edges = count_turned_edges(content);
   summary.is_start_fixed = file.is_start_fixed();
   summary.smallest_sigma_m = std::numeric_limits<double>::infinity();
   summary.smallest_sigma_rad = std::numeric_limits<double>::infinity();

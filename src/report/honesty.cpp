@@ -38,8 +38,9 @@ double degrees_of_freedom(const std::map<std::string, MetricSummary>& figures) {
 
 class Figures {
  public:
-  Figures(const std::map<std::string, MetricSummary>& figures, std::size_t draws)
-      : figures_(figures), draws_(draws) {}
+  Figures(const std::map<std::string, MetricSummary>& figures, std::size_t draws,
+          bool considers_shared_errors)
+      : figures_(figures), draws_(draws), considers_shared_errors_(considers_shared_errors) {}
 
   const MetricSummary* find(const std::string& metric) const {
     const auto found = figures_.find(metric);
@@ -67,7 +68,9 @@ class Figures {
     return level_of(*summary, 1.0, anees_interval(draws_, dof, kProbability));
   }
 
-  bool is_off_the_optimum() const { return fathom::is_off_the_optimum(figures_); }
+  bool is_off_the_optimum() const {
+    return fathom::is_off_the_optimum(figures_, considers_shared_errors_);
+  }
 
   bool is_correlated() const {
     const MetricSummary* summary = find("picture_error_correlation");
@@ -77,6 +80,7 @@ class Figures {
  private:
   const std::map<std::string, MetricSummary>& figures_;
   std::size_t draws_ = 0;
+  bool considers_shared_errors_ = false;
 };
 
 // Why covariances are too small, by the figure that says most.
@@ -138,17 +142,23 @@ std::optional<double> optimum_per_degree(const CellResults& cell) {
 // estimate is not where the measurements put it. By the median, too: of gaps of many sizes the
 // greatest widen the interval of the mean to below zero. Honest errors of two or more runs have
 // such a median in 0.5 % of cells at most.
-bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures) {
+bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures,
+                        bool considers_shared_errors) {
   if (is_misfit(optimum_per_degree(figures))) return false;
   const auto found = figures.find("chi2_gap");
-  const double most = chi_squared_quantile(0.5 * (1.0 + kProbability), 3.0);
+  double most = chi_squared_quantile(0.5 * (1.0 + kProbability), 3.0);
+  // Of a log that tells none, all are equal.
+  if (considers_shared_errors && figures.contains("estimates_shared_errors")) {
+    const double scale = std::max(1.0, optimum_per_degree(figures).value_or(1.0));
+    most = std::max(most, 3.0 * scale * degrees_of_freedom(figures));
+  }
   if (found == figures.end() || !found->second.interval) return false;
   return found->second.interval->low > most || found->second.moments.median > most;
 }
 
 std::optional<Honesty> honesty_of(const std::map<std::string, MetricSummary>& figures,
-                                  std::size_t draws) {
-  const Figures known(figures, draws);
+                                  std::size_t draws, bool considers_shared_errors) {
+  const Figures known(figures, draws, considers_shared_errors);
   const Level level = known.level("anees", 1.0);
   if (level != Level::high && level != Level::low) return std::nullopt;
   Honesty honesty;

@@ -54,8 +54,11 @@ inline bool is_misfit(std::optional<double> per_degree) {
 
 /// Whether an estimate lies so far above the optimum of the measurements that no honest one would.
 /// F above it has an interval or a median above the 97.5 % quantile of χ² of 3 degrees of freedom.
-/// No of a single trial, and where the measurements disagree.
-bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures);
+/// No of a single trial, and where the measurements disagree. One that considers errors that
+/// registrations share minimises no F: it is off beyond all that its gains explain, three per
+/// degree of freedom.
+bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures,
+                        bool considers_shared_errors = false);
 
 /// Whether the consistency of an estimator on a cell is other than expected; nothing where it is as
 /// expected, or the figures say nothing. `figures` are means over runs by metric, `draws` how many
@@ -67,8 +70,9 @@ bool is_off_the_optimum(const std::map<std::string, MetricSummary>& figures);
 /// - its bootstrap interval, where there is one, lies above 1.
 /// Too low likewise. A mean NIS against truth is held to the same interval, three times as large.
 /// F per degree of freedom is held to the χ² interval of `draws` times its degrees of freedom:
-/// 3 · registrations, unless `degrees_of_freedom` says otherwise.
+/// 3 · registrations, unless `degrees_of_freedom` says otherwise. `considers_shared_errors` as of
+/// is_off_the_optimum.
 std::optional<Honesty> honesty_of(const std::map<std::string, MetricSummary>& figures,
-                                  std::size_t draws);
+                                  std::size_t draws, bool considers_shared_errors = false);
 
 }  // namespace fathom

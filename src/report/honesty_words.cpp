@@ -42,10 +42,7 @@ std::string cause_words(const EstimatorResults& one) {
   switch (one.honesty ? one.honesty->cause : HonestyCause::unknown) {
     case HonestyCause::off_the_optimum:
       return "The estimate is not at the optimum of the measurements: its F is above it by " +
-             figure("chi2_gap") + ", by its linearisation" +
-             (one.honesty->is_told && !one.honesty->estimates_shared_errors
-                  ? ", a wrong minimum, or its gains where it has shared_errors: consider."
-                  : " or a wrong minimum.");
+             figure("chi2_gap") + ", by its linearisation or a wrong minimum.";
     case HonestyCause::first_picture:
       return "With other keyframes held it is " + figure("anchored_anees") +
              ": what is wrong is the first picture, from which every pose is measured.";

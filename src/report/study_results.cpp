@@ -75,7 +75,8 @@ void sum_up(EstimatorResults& estimator, const std::vector<std::string>& metrics
   }
   estimator.consistency = summaries(estimator, {of_honesty.begin(), of_honesty.end()});
   estimator.honesty = honesty_of(estimator.consistency,
-                                 independent_draws(repetition, surveys.size(), estimator.done));
+                                 independent_draws(repetition, surveys.size(), estimator.done),
+                                 estimator.considers_shared_errors);
 }
 
 // One family of tests a cell: what a reader of its block looks over at once. A single trial tests
@@ -140,6 +141,7 @@ CellResults runs_of(const RunIndex& index, std::size_t number, const std::string
     EstimatorResults one;
     one.name = name;
     one.cost_machine = cost_machine;
+    one.considers_shared_errors = study.considers_shared_errors(number, name);
     for (const auto& [trial, run] : index.of(name, number)) {
       trials.insert(trial);
       if (name != kDeadReckoning) cell.jobs.insert(run->jobs);

@@ -34,6 +34,7 @@ struct EstimatorResults {
   std::optional<Honesty> honesty = std::nullopt;
   /// The figures that it is found from, whether the study reports them or not.
   std::map<std::string, MetricSummary> consistency = {};
+  bool considers_shared_errors = false;  ///< StudyDescription's
 
   std::size_t failures() const { return runs.size() - done; }
 };

@@ -62,7 +62,7 @@ std::optional<Doubt> correlation(const CellResults& cell) {
 std::optional<Doubt> off_the_optimum(const CellResults& cell) {
   doubt::OffTheOptimum found;
   for (const EstimatorResults& one : cell.estimators) {
-    if (!is_off_the_optimum(one.consistency)) continue;
+    if (!is_off_the_optimum(one.consistency, one.considers_shared_errors)) continue;
     found.gaps.push_back({one.name, one.consistency.at("chi2_gap")});
   }
   if (found.gaps.empty()) return std::nullopt;

@@ -51,6 +51,11 @@ void check_information(const MeasurementLog& log, const EstimatorRegistry& regis
     checked.warnings.push_back("F per degree of freedom is " + is +
                                ", and 1 is expected: wrong loops, information values that are too "
                                "large, or a start that ends in a wrong minimum");
+    if (checked.graph.turned_edges > 0) {
+      checked.warnings.push_back(counted(checked.graph.turned_edges, "edge") +
+                                 " with a heading beyond 2 pi: headings look like degrees, and "
+                                 "radians are expected");
+    }
   }
 }
 

@@ -104,17 +104,17 @@ class OneRun {
     if (auto remark = frame_remark(*recording_)) remarks.push_back(std::move(*remark));
     if (auto remark = truth_remark(*recording_)) remarks.push_back(std::move(*remark));
     const auto optimum = batch_optimum(recording_->log, registry_, {}, done.result.run.errors);
-    const auto fit =
+    auto fit =
         optimum ? map_fit(recording_->log, estimate, *optimum, &done.result.run) : std::nullopt;
     if (!fit) return;
     const EstimatorConfiguration& estimator = done.result.estimator;
+    const auto takes_as = [&](const char* word) {
+      return takes_shared_errors_as(word, recording_->log, estimator, registry_);
+    };
+    fit->considers_shared_errors = takes_as("consider");
     std::ranges::copy(map_remarks(*fit, estimator.name, optimum->solver, set_up_is_wrong),
                       std::back_inserter(remarks));
-    const auto in_force = estimator_options(estimator, registry_.find(estimator.type));
-    const bool is_sharing = std::ranges::any_of(in_force, [](const auto& option) {
-      return option.first == "shared_errors" && option.second == "independent";
-    });
-    if (is_sharing && recording_->log.tells_shared_errors()) {
+    if (takes_as("independent")) {
       if (auto remark = sharing_remark(*fit, estimator.name)) remarks.push_back(std::move(*remark));
     }
     if (fit->estimate_fits() || fit->leaves_out_most()) return;

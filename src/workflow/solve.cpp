@@ -7,6 +7,7 @@
 #include "fathom/core/files.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/manifest.hpp"
+#include "fathom/harness/map_fit.hpp"
 #include "fathom/harness/run_folder.hpp"
 #include "fathom/measurements/graph_numbers.hpp"
 #include "fathom/workflow/inputs.hpp"
@@ -114,13 +115,47 @@ Recording read(const SolveGraphRequest& request, const GraphOptions& graph, Solv
 }
 
 std::string manifest_of(const SolveGraphRequest& request, const GraphOptions& graph,
-                        const SolveOutcome& done, const EstimatorRegistry& registry) {
+                        const SolveOutcome& done, const EstimatorRegistry& registry,
+                        const std::vector<std::string>& remarks) {
   std::vector<std::pair<std::string, std::string>> configuration{
       {"graph", request.graph.string()}, {"init", request.starts_from_file ? "file" : "odometry"}};
   std::ranges::copy(in_force(graph, done.recording.log), std::back_inserter(configuration));
   return manifest_json(request.made_by, configuration,
                        with_code(fingerprint({request.graph}), {done.result.estimator}, registry),
-                       done.recording, done.result, registry, graph_remarks(done.recording.log));
+                       done.recording, done.result, registry, remarks);
+}
+
+// What of the map looks wrong. Where it ended counts as the optimum until something may be wrong
+// with it: batch solves by all that can take longer than the one that was asked for.
+std::vector<std::string> solve_remarks(const SolveOutcome& done,
+                                       const EstimatorRegistry& registry) {
+  constexpr std::size_t kMostKeyframes = 20'000;
+  const MeasurementLog& log = done.recording.log;
+  const Result& result = done.result;
+  const Run& run = result.run;
+  std::vector<std::string> remarks = graph_remarks(log);
+  if (!result.is_done() || run.trajectory.size() != log.size()) return remarks;
+  BatchOptimum optimum{
+      run.trajectory, chi2(log, run.trajectory, run.errors), result.estimator.type, {}, run.errors};
+  auto fit = map_fit(log, run.trajectory, optimum, &run);
+  if (!fit) return remarks;
+  MapFit least = *fit;
+  least.chi2_optimum = 0.0;
+  const bool may_be_off = result.mode == SolveMode::incremental && !least.estimate_fits();
+  if (!fit->measurements_disagree() && !may_be_off) return remarks;
+  if (log.size() <= kMostKeyframes) {
+    const auto found = batch_optimum(log, registry, {}, run.errors);
+    if (!found) return remarks;
+    if (found->chi2 < optimum.chi2) optimum = *found;
+    fit = map_fit(log, run.trajectory, optimum, &run);
+  } else if (result.mode != SolveMode::batch || fit->leaves_out_most()) {
+    return remarks;
+  }
+  fit->considers_shared_errors =
+      takes_shared_errors_as("consider", log, result.estimator, registry);
+  std::ranges::copy(map_remarks(*fit, result.estimator.name, optimum.solver),
+                    std::back_inserter(remarks));
+  return remarks;
 }
 
 }  // namespace
@@ -187,13 +222,14 @@ SolveOutcome solve_graph(const SolveGraphRequest& request, const EstimatorRegist
   StagedFolder folder(out, {request.graph, request.ground_truth, request.false_loops});
   SolveOutcome done{std::move(recording), {}};
   done.result = solve(done.recording, asked, registry, machine, observer);
+  const std::vector<std::string> remarks = solve_remarks(done, registry);
   write_run(folder.path(), done.recording, done.result,
-            manifest_of(request, graph, done, registry));
+            manifest_of(request, graph, done, registry, remarks));
   write_trajectory_picture(folder.path() / "trajectory.png", name + ", " + entry.name,
                            done.recording, {done.result});
   folder.commit(optional_run_files());
   observer.wrote((folder.target() / "trajectory.png").string());
-  for (const std::string& remark : graph_remarks(done.recording.log)) observer.remark(remark);
+  for (const std::string& remark : remarks) observer.remark(remark);
   return done;
 }
 

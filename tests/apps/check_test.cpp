@@ -11,6 +11,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Check : public CommandLine {};
 
@@ -107,6 +108,20 @@ TEST_F(Check, WarnsOfInformationThatLooksWrong) {
         "EDGE_SE2 0 2 1 0 0 1e4 0 0 1e4 0 1e4\n");
   EXPECT_THAT(fathom_done({"check", "far.g2o"}).out,
               HasSubstr("warning: F per degree of freedom is "));
+}
+
+TEST_F(Check, HeadingsInDegreesAreNamed) {
+  const auto turned = [](const std::string& heading) {
+    const std::string information = " 1e4 0 0 1e4 0 1e4\n";
+    return "EDGE_SE2 0 1 1 0 " + heading + information + "EDGE_SE2 1 2 1 0 " + heading +
+           information + "EDGE_SE2 0 2 1 1 3.14159" + information;
+  };
+  write("degrees.g2o", turned("90"));
+  EXPECT_THAT(fathom_done({"check", "degrees.g2o"}).out,
+              HasSubstr("warning: 2 edges with a heading beyond 2 pi: headings look like degrees"));
+  // What fits is a turn too much, and no degrees.
+  write("radians.g2o", turned("7.853982"));
+  EXPECT_THAT(fathom_done({"check", "radians.g2o"}).out, Not(HasSubstr("degrees,")));
 }
 
 TEST_F(Check, KnowsAGraphByItsLinesAndABagByItsEnding) {

@@ -174,6 +174,19 @@ TEST_F(Faults, HiddenFilesBesideThePictures) {
   EXPECT_THAT(survived(), HasSubstr("1 hidden file left out, such as ._0.png"));
 }
 
+TEST_F(Faults, AMisspeltFolderAndACameraUnlikeOthers) {
+  fs::create_directory(path("data/mav0/attitude"));
+  set_camera("intrinsics", "[130, 150, 59.5, 79.5]");
+  for (const Arguments& command :
+       {Arguments{"check", "data"}, Arguments{"run", "data", "--out", "run", "--no-mosaic"}}) {
+    EXPECT_THAT(
+        fathom_done(command).out,
+        AllOf(HasSubstr("mav0/attitude is not read; did you mean 'attitude0'?"),
+              HasSubstr("cam0/sensor.yaml: fx 130 and fy 150 differ by 14 %; pixels are square"),
+              HasSubstr("cam0/sensor.yaml: cx 59.5 and cy 79.5 look exchanged")));
+  }
+}
+
 TEST_F(Faults, TheVehicleInEveryPicture) {
   cv::RNG random(3);
   cv::Mat skid(16, 160, CV_8U);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "apps/commands.hpp"
+#include "apps/graphs.hpp"
 #include "harness/small_config.hpp"
 
 namespace fathom::test {
@@ -10,6 +11,8 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 TEST_F(Commands, SolveOnARunsLogIsTheRunToTheLastBit) {
   write("c.yaml", kSmallSurvey);
@@ -72,6 +75,19 @@ TEST_F(Commands, SolveSaysWhetherItFoundAMinimum) {
   EXPECT_EQ(metrics.at("is_local_minimum"), 1);
   // By hand: three springs in a ring share the gap of 0.3 m.
   EXPECT_NEAR(metrics.at("chi2").get<double>(), 0.03, 1e-9);
+}
+
+// As check does; it is no failure.
+TEST_F(Commands, SolveSaysWhereMeasurementsDoNotFitEachOther) {
+  const std::string square = square_graph(250, 10);
+  write("square.g2o", square);
+  write("spoilt.g2o", square + "EDGE_SE2 200 202 9 -4 1 400 20 -5 300 10 900\n");
+  EXPECT_THAT(fathom_done({"solve", "square.g2o"}).out, Not(HasSubstr("warning: ")));
+  const std::string warning = "the measurements do not fit each other: F per degree of freedom is ";
+  EXPECT_THAT(fathom_done({"solve", "spoilt.g2o", "--out", "out"}).out,
+              HasSubstr("\nwarning: " + warning));
+  EXPECT_THAT(json_of("out/run.json").at("remarks").dump(), HasSubstr(warning));
+  EXPECT_THAT(fathom_done({"solve", "spoilt.g2o", "--out", "out", "--quiet"}).out, IsEmpty());
 }
 
 }  // namespace

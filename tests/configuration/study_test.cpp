@@ -62,6 +62,19 @@ sweep:
             "[[1, 0, 0, 1, 0, 1], [2, 0.5, 0, 2, 0, 1], [3, 0, 0, 3, 0, 1]]");
 }
 
+TEST(ConfigureStudy, KnowsWhoConsidersSharedErrors) {
+  const StudyDescription study = study_of(R"(
+estimators: [{type: ekf}, {type: ekf, name: swept}, {type: sparse_gauss_newton}]
+sweep: [{key: estimators.1.shared_errors, values: [states, consider]}]
+)")
+                                     .description;
+  EXPECT_TRUE(study.considers_shared_errors(0, "ekf"));
+  EXPECT_FALSE(study.considers_shared_errors(0, "swept"));
+  EXPECT_TRUE(study.considers_shared_errors(1, "swept"));
+  EXPECT_FALSE(study.considers_shared_errors(0, "sparse_gauss_newton"));
+  EXPECT_FALSE(study.considers_shared_errors(0, kDeadReckoning));
+}
+
 TEST(ConfigureStudy, ACellsNoiseDoesNotDependOnTheOtherCells) {
   const auto seeds = [](const std::string& values) {
     return study_of("sweep: [{key: front_end.candidates.max_distance_m, values: " + values + "}]\n")

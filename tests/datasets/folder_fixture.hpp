@@ -19,7 +19,7 @@ class FolderFixture {
     files = {
         {"cam0/data.csv", "#timestamp [ns],filename\n0,a.png\n1000,b.png\n2000,c.png\n"},
         {"cam0/sensor.yaml",
-         "sensor_type: camera\nresolution: [8, 6]\nintrinsics: [10, 11, 3.5, 2.5]\n"
+         "sensor_type: camera\nresolution: [8, 6]\nintrinsics: [10, 10.4, 3.5, 2.5]\n"
          "distortion_model: none\ndistortion_coefficients: []\n"},
         {"altimeter0/data.csv", "#t,altitude\n0,2\n1000,2.5\n2000,3\n"},
         {"odometry0/data.csv",

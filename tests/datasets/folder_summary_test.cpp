@@ -23,9 +23,9 @@ TEST(FolderSummary, StatesWhatIsThere) {
   const FolderFixture fixture;
   const FolderSummary summary = summarise_frames(ImageFolder(fixture.write()));
   EXPECT_THAT(summary.facts, Contains("frames: 3 in 2e-06 s"));
-  EXPECT_THAT(summary.facts, Contains(HasSubstr("8 x 6 pixels, f 10, 11, centre 3.5, 2.5")));
-  // f = √(10 · 11) = 10.488 pixels.
-  EXPECT_THAT(summary.facts, Contains("altitude: 2 to 3 m, 190.7 to 286 mm per pixel, sigma not "
+  EXPECT_THAT(summary.facts, Contains(HasSubstr("8 x 6 pixels, f 10, 10.4, centre 3.5, 2.5")));
+  // f = √(10 · 10.4) = 10.198 pixels.
+  EXPECT_THAT(summary.facts, Contains("altitude: 2 to 3 m, 196.1 to 294.2 mm per pixel, sigma not "
                                       "stated"));
   EXPECT_THAT(summary.facts, Contains("odometry: path of 3 m"));
   EXPECT_THAT(summary.facts, Contains("ground truth: 3 of 3 frames"));

@@ -13,6 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 EstimatorResults overconfident(const std::string& name, HonestyCause cause, double figure) {
   EstimatorResults one = eight(name, kBest);
@@ -54,6 +55,19 @@ TEST(VerdictCauses, OfSeveralCellsEstimatorsAreNamed) {
               ElementsAre("In all 2 cells estimators are overconfident: a in 1 and b in 2."));
   EXPECT_THAT(doubts_of_two(eight("b", kBest)),
               ElementsAre("In 1 of 2 cells estimators are overconfident: a."));
+}
+
+TEST(VerdictCauses, WhatConsidersSharedErrorsIsNotHeldToTheOptimum) {
+  EstimatorResults filter = eight("filter", kBest);
+  MetricSummary& gap = filter.consistency["chi2_gap"];
+  gap.moments.mean = 30.0;
+  gap.interval = Interval{9.4, 50.0};
+  filter.consistency["degrees_of_freedom"].moments.mean = 300.0;
+  filter.consistency["estimates_shared_errors"].moments.mean = 0.0;
+  EXPECT_THAT(doubts_of_one(surveyed({filter})),
+              Contains(StartsWith("F above the optimum of the measurements: filter")));
+  filter.considers_shared_errors = true;
+  EXPECT_THAT(doubts_of_one(surveyed({filter})), IsEmpty());
 }
 
 TEST(VerdictCauses, MeasurementsThatDoNotFitEachOtherAreADoubt) {

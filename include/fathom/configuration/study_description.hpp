@@ -66,6 +66,9 @@ struct StudyDescription {
   LoopSelector selector_of(std::size_t cell) const;
   /// The same in words: "ground truth", "the estimate of ekf, a contender"; empty where unknown.
   std::string selected_by(std::size_t cell) const;
+  /// Whether an estimator of a cell considers errors that registrations share, so that it minimises
+  /// no F.
+  bool considers_shared_errors(std::size_t cell, const std::string& estimator) const;
   /// How a cell's estimates were aligned for their errors.
   std::string alignment_of(std::size_t cell) const;
   /// What of a cell's data set is drawn again. Of a type that is not known: surveys, which claims

@@ -60,8 +60,8 @@ class ImageFolder : public FrameSource {
   /// At the sensor's own rate, beyond the frames as well.
   RecordedOdometry recorded_odometry() const override { return odometry_; }
   SetUpFiles set_up_files() const override { return {true, altimeter_scale_}; }
-  /// What was made of sensors' readings that cannot be, of pictures without any, and keys of their
-  /// `sensor.yaml` that nobody reads, a line each.
+  /// What was made of sensors' readings that cannot be, of pictures without any, doubts about the
+  /// camera, and folders and keys of a `sensor.yaml` that nobody reads, a line each.
   const std::vector<std::string>& remarks() const { return remarks_; }
   /// The pictures and the files of all sensors, each a regular file.
   std::vector<std::filesystem::path> files() const;

@@ -69,6 +69,7 @@ struct SetUp {
   std::vector<MovedPictures> moved;  ///< by rising number; all else is of them where they belong
   bool is_related = true;            ///< whether the two have anything to do with each other
   Estimated scale;                   ///< registered motions over those of dead reckoning
+  Estimated least_scale;             ///< the same, were all that is left of registrations' errors
   Estimated yaw_rad;                 ///< of the camera's mounting
   Estimated lever_x_m;
   Estimated lever_y_m;

@@ -54,6 +54,7 @@ struct GraphSummary {
   double largest_sigma_m = 0.0;
   double smallest_sigma_rad = 0.0;
   double largest_sigma_rad = 0.0;
+  std::size_t turned_edges = 0;       ///< whose heading, as written, lies beyond 2π
   std::size_t badly_conditioned = 0;  ///< information with a condition number above kMaxCondition
   std::vector<std::string> faults;    ///< "FILE:LINE: what", by kind of fault, then line
 };

@@ -11,7 +11,9 @@
 #include "attitude_series.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/datasets/asl_files.hpp"
+#include "fathom/datasets/camera_doubts.hpp"
 #include "fathom/datasets/picture_file.hpp"
+#include "near_folders.hpp"
 #include "reading_outliers.hpp"
 #include "sensor_series.hpp"
 #include "sensor_yaml.hpp"
@@ -28,10 +30,12 @@ fs::path mav0_of(const fs::path& path) {
   for (const fs::path& candidate : {path / "mav0", path}) {
     if (fs::is_directory(candidate / "cam0", error)) return candidate;
   }
+  const fs::path inner = path / "mav0";
   throw InputError(path.string(),
                    std::string(fs::is_empty(path, error) ? "is empty" : "has no mav0/cam0") +
                        "; expected a folder in the EuRoC/ASL layout, or pictures with "
-                       "dataset.type: pictures");
+                       "dataset.type: pictures" +
+                       near_folder_hint(fs::is_directory(inner, error) ? inner : path, "cam0"));
 }
 
 // The sensor's data.csv if its folder is there. A folder without one is a mistake, not an absence.
@@ -58,7 +62,9 @@ SensorYaml yaml_beside(const fs::path& csv) {
 }  // namespace
 
 ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_(mav0_of(path)) {
-  camera_ = read_camera_yaml(mav0_ / "cam0" / "sensor.yaml");
+  const fs::path camera_file = mav0_ / "cam0" / "sensor.yaml";
+  camera_ = read_camera_yaml(camera_file);
+  remarks_ = camera_doubts(camera_.model(), camera_file.string());
   if (const fs::path mask = mav0_ / "cam0" / "mask.png"; fs::exists(mask)) {
     mask_ = read_mask(mask, {camera_.model().width, camera_.model().height});
   }
@@ -70,6 +76,7 @@ ImageFolder::ImageFolder(const fs::path& path, const OdometryGaps& gaps) : mav0_
   read_ground_truth();
   sensors_ = read_folder_sensors(mav0_, {infos_.front().time_ns, infos_.back().time_ns}, recorded);
   std::ranges::copy(leave_out_contradicted(sensors_, infos_), std::back_inserter(remarks_));
+  std::ranges::copy(unread_folders(mav0_), std::back_inserter(remarks_));
   std::ranges::copy(unread_sensor_keys(mav0_), std::back_inserter(remarks_));
   remark(hidden_pictures_remark(pictures_.front().parent_path()));
   ids_ = FileIds(pictures_.size());
@@ -108,8 +115,8 @@ void ImageFolder::read_altitudes() {
   const auto csv = sensor_csv(mav0_, "altimeter0");
   if (!csv) {
     throw InputError(mav0_.string(),
-                     "has no altimeter0/data.csv; without altitude pixels cannot "
-                     "become metres");
+                     "has no altimeter0/data.csv; without altitude pixels cannot become metres" +
+                         near_folder_hint(mav0_, "altimeter0"));
   }
   const SensorYaml yaml = yaml_beside(*csv);
   const AltitudeSeries altimeter(*csv, yaml);

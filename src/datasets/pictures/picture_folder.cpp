@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <utility>
 
 #include "exif.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/camera_doubts.hpp"
 #include "fathom/datasets/camera_options.hpp"
 #include "fathom/datasets/picture_file.hpp"
 #include "picture_table.hpp"
@@ -100,6 +102,9 @@ Camera camera_of(const PictureFolderOptions& options, const fs::path& picture) {
 PictureFolder::PictureFolder(const PictureFolderOptions& options) : folder_(options.path) {
   find_pictures();
   camera_ = camera_of(options, pictures_.front());
+  for (std::string& doubt : camera_doubts(camera_.model(), "dataset.camera")) {
+    remarks_.push_back(std::move(doubt));
+  }
   infos_.resize(pictures_.size());
   set_times(options.interval_s);
   set_altitudes(options);

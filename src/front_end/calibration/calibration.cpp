@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "fathom/core/text.hpp"
+#include "fathom/datasets/camera_doubts.hpp"
 #include "fathom/datasets/series_outliers.hpp"
 #include "findings.hpp"
 #include "set_up.hpp"
@@ -26,6 +27,11 @@ void find_untold(const SetUp& found, const Senses& senses, std::vector<std::stri
     untold.push_back(
         fmt::format("the scale: registrations are too uncertain for motions so short (σ {})",
                     short_number(found.scale.sigma, 2)));
+  } else if (errors_make_scale(found)) {
+    untold.push_back(
+        fmt::format("the scale: errors of registrations (of tilt, of altitudes) that their "
+                    "covariances do not tell may make it {}, and it may be {}",
+                    short_number(found.scale.value, 3), short_number(found.least_scale.value, 3)));
   }
   if (!found.is_clock_told) {
     untold.emplace_back("dead reckoning's clock: altitudes contradict one another");
@@ -42,9 +48,12 @@ void find_untold(const SetUp& found, const Senses& senses, std::vector<std::stri
 
 Calibration calibrate(const CalibrationInput& input) {
   Calibration calibration;
+  // What is told of the camera (camera_doubts) would be found as a mounting here.
+  if (principal_point_looks_exchanged(input.camera)) return calibration;
   find_size(input.camera, calibration.findings);
   // All else would be off for that.
   if (!calibration.findings.empty()) return calibration;
+  if (find_still_odometry(input, calibration.findings)) return calibration;
   if (!input.is_visual_odometry) calibration.set_up = find_set_up(input);
   std::optional<SetUp>& found = calibration.set_up;
   if (found) {
@@ -65,6 +74,7 @@ Calibration calibrate(const CalibrationInput& input) {
     calibration.turns = compare_turns(input, track);
     calibration.directions = compare_directions(input, track, calibration.turns);
     find_still_compass(input, track, calibration.findings);
+    find_lengths(input, track, found ? found->scale.value : 1.0, calibration.findings);
   }
   const Senses senses = senses_of(input, calibration);
   if (senses.pictures_are_mirrored) {

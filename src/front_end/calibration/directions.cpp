@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "fathom/core/median.hpp"
+#include "fathom/core/text.hpp"
+#include "findings.hpp"
 #include "set_up.hpp"
 #include "student_t.hpp"
 
@@ -114,6 +118,34 @@ std::vector<Ways> ways_of_fixes(const AbsoluteReadings& readings, double sense,
   return ways;
 }
 
+// How many times as long a source's ways are as those of dead reckoning: of the middle ones.
+std::optional<double> length_of(const std::vector<Ways>& ways) {
+  constexpr std::size_t kFewest = 5;
+  if (ways.size() < kFewest) return std::nullopt;
+  std::vector<double> said_m;
+  std::vector<double> reckoned_m;
+  for (const Ways& way : ways) {
+    said_m.push_back(way.said.norm());
+    reckoned_m.push_back(way.reckoned.norm());
+  }
+  const double reckoned = upper_median(reckoned_m);
+  return reckoned > 0.0 ? std::optional(upper_median(said_m) / reckoned) : std::nullopt;
+}
+
+// Over a twelfth of all fixes each, so that their noise is little. Directions are of no matter.
+std::vector<Ways> lengths_of_fixes(const std::vector<PositionFix>& fixes,
+                                   const OdometryTrack& track) {
+  constexpr std::size_t kWays = 12;
+  std::vector<Ways> ways;
+  const std::size_t span = std::max<std::size_t>(1, fixes.size() / kWays);
+  for (std::size_t i = span; i < fixes.size(); ++i) {
+    const auto motion = track.motion(fixes[i - span].time_ns, fixes[i].time_ns);
+    if (!motion) continue;
+    ways.push_back({motion->position(), fixes[i].position_m - fixes[i - span].position_m});
+  }
+  return ways;
+}
+
 // Whether a source turns the way that dead reckoning does; 0 where it does not say.
 double sense_of(const std::vector<TurnComparison>& turns, const char* source) {
   const auto found = std::ranges::find(turns, source, &TurnComparison::source);
@@ -139,6 +171,24 @@ std::vector<DirectionComparison> compare_directions(const CalibrationInput& inpu
     }
   }
   return directions;
+}
+
+void find_lengths(const CalibrationInput& input, const OdometryTrack& track, double registered,
+                  std::vector<std::string>& findings) {
+  // A unit of length that is another; noise of fixes makes short ways longer, but not by so much.
+  constexpr double kGross = 50.0;
+  const auto is_gross = [](double factor) { return factor > kGross || factor < 1.0 / kGross; };
+  for (const auto& [source, ways] :
+       {std::pair("ground truth", ways_of_truth(input.references, track)),
+        std::pair("position0", lengths_of_fixes(input.readings.fixes, track))}) {
+    const auto length = length_of(ways);
+    // Against pictures, too: else dead reckoning is what is off.
+    if (!length || !is_gross(*length) || !is_gross(*length / registered)) continue;
+    findings.push_back(fmt::format(
+        "ways of {} are {} times as long as those of dead reckoning and pictures{}; "
+        "write its positions times {}",
+        source, short_number(*length, 4), named_factor(*length), short_number(1.0 / *length, 4)));
+  }
 }
 
 }  // namespace fathom

@@ -22,8 +22,10 @@ std::string seconds_after_start(const CalibrationInput& input, std::int64_t time
   return short_number(1e-9 * static_cast<double>(time_ns - input.frame_times_ns.front()), 4);
 }
 
+}  // namespace
+
 // Factors that have a name.
-std::string named(double factor) {
+std::string named_factor(double factor) {
   const auto is_near = [factor](double named) { return std::abs(std::log(factor / named)) < 0.02; };
   // Behind a flat port a picture shows less, as with a longer focal length; never more.
   if (is_near(1.333)) return "; as a camera calibrated in air has behind a flat port";
@@ -34,8 +36,6 @@ std::string named(double factor) {
   }
   return "";
 }
-
-}  // namespace
 
 std::string with_sigma(const Estimated& one, int digits) {
   return fmt::format("{:.{}f} ± {}", one.value, digits, short_number(one.sigma, 2));
@@ -162,9 +162,19 @@ void find_step(const CalibrationInput& input, const SetUp& found,
                    : "altimeter0 does not step there, so odometry0's scale does"));
 }
 
+bool is_scale_off(const SetUp& found) {
+  return found.scale.is_off(1.0, kFindingSigmas, kLeastScale);
+}
+
+bool errors_make_scale(const SetUp& found) {
+  return is_scale_off(found) && found.scale.value > 1.0 &&
+         !(found.least_scale.is_off(1.0, kFindingSigmas, kLeastScale) &&
+           found.least_scale.value > 1.0);
+}
+
 void find_scale(const CalibrationInput& input, const SetUp& found,
                 std::vector<std::string>& findings) {
-  if (!found.scale.is_off(1.0, kFindingSigmas, kLeastScale)) return;
+  if (!is_scale_off(found) || errors_make_scale(found)) return;
   const double factor = found.scale.value;
   const std::string remedy =
       input.files.are_sensor_yaml
@@ -183,7 +193,7 @@ void find_scale(const CalibrationInput& input, const SetUp& found,
       "registered motions are {} times as long as dead reckoning has them: altitudes are {:.3f} "
       "times what they should be, or the focal length {:.3f} times, or dead reckoning {:.3f} "
       "times{}; {}",
-      with_sigma(found.scale), factor, 1.0 / factor, 1.0 / factor, named(factor), remedy));
+      with_sigma(found.scale), factor, 1.0 / factor, 1.0 / factor, named_factor(factor), remedy));
 }
 
 bool is_late(const SetUp& found) {

@@ -45,6 +45,15 @@ void find_mounting(const CalibrationInput& input, const SetUp& found, bool is_mi
 bool find_directions(const Calibration& calibration, std::vector<std::string>& findings);
 void find_step(const CalibrationInput& input, const SetUp& found,
                std::vector<std::string>& findings);
+/// "; millimetres are taken for metres" where a factor has a name.
+std::string named_factor(double factor);
+/// Of ground truth or fixes whose ways are many times as long, or short, as those of dead reckoning
+/// and of registrations, which are `registered` times those of dead reckoning.
+void find_lengths(const CalibrationInput& input, const OdometryTrack& track, double registered,
+                  std::vector<std::string>& findings);
+bool is_scale_off(const SetUp& found);
+/// Whether errors of registrations, which their covariances do not tell, would make it so.
+bool errors_make_scale(const SetUp& found);
 void find_scale(const CalibrationInput& input, const SetUp& found,
                 std::vector<std::string>& findings);
 /// Whether dead reckoning's clock is off.
@@ -54,6 +63,8 @@ void find_clock(const CalibrationInput& input, const SetUp& found,
 /// Of compass and fixes.
 void find_turns(const CalibrationInput& input, const Calibration& calibration, const Senses& senses,
                 std::vector<std::string>& findings);
+/// Of dead reckoning without headings: whether it is that, and nothing else can be told.
+bool find_still_odometry(const CalibrationInput& input, std::vector<std::string>& findings);
 /// Of a compass whose headings are one and the same while dead reckoning turns.
 void find_still_compass(const CalibrationInput& input, const OdometryTrack& track,
                         std::vector<std::string>& findings);

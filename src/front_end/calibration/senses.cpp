@@ -196,4 +196,27 @@ void find_still_compass(const CalibrationInput& input, const OdometryTrack& trac
       short_number(headings.front().heading_rad), headings.size(), short_number(turned_rad)));
 }
 
+bool find_still_odometry(const CalibrationInput& input, std::vector<std::string>& findings) {
+  constexpr double kStill_rad = 1e-6;
+  constexpr double kTurned_rad = 1.0;
+  const std::vector<ReckonedRow>& rows = input.odometry.rows;
+  if (input.is_visual_odometry || rows.size() < 2) return false;
+  for (const ReckonedRow& row : rows) {
+    if (std::abs(row.heading_rad - rows.front().heading_rad) > kStill_rad) return false;
+  }
+  double turned_rad = 0.0;
+  double largest_rad = 0.0;
+  for (const SeenMotion& motion : input.motions) {
+    turned_rad += motion.camera.theta;
+    largest_rad = std::max(largest_rad, std::abs(turned_rad));
+  }
+  if (largest_rad < kTurned_rad) return false;
+  findings.push_back(
+      fmt::format("odometry0 has heading {} rad in each of its {} rows while the pictures turn by "
+                  "{} rad: it measures none; write its headings, or remove its folder, and the "
+                  "motions are made of the pictures",
+                  short_number(rows.front().heading_rad), rows.size(), short_number(largest_rad)));
+  return true;
+}
+
 }  // namespace fathom

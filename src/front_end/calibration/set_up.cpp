@@ -96,6 +96,12 @@ double evidence_of(const Reading& reading, const SetUpFit& fit, const SetUpPrior
   return evidence;
 }
 
+// Whether ground truth turns the other way than dead reckoning read so. Nothing else tells a survey
+// in reverse order from one whose headings count the other way, where its way is even.
+bool turns_against_truth(const CalibrationInput& input, const OdometryFormat& format) {
+  return compare_with_truth(input, OdometryTrack(input.odometry, format)).slope.value < 0.0;
+}
+
 // By how much a motion is likelier whose clock lies between two rows, at most: interpolation
 // averages noise there, of variance K − ½ for K rows a motion.
 double gain_of_interpolation(const CalibrationInput& input) {
@@ -129,7 +135,9 @@ std::optional<FittedReading> best_reading(const CalibrationInput& input, const S
     const auto fit = fit_set_up(motions_of(input, reading),
                                 OdometryTrack(input.odometry, reading.format), prior);
     if (!fit) continue;
+    constexpr double kOfTruth = 50.0;
     double evidence = evidence_of(reading, *fit, prior, input);
+    if (turns_against_truth(input, reading.format)) evidence -= kOfTruth;
     // The first one is what is configured.
     if (!best) evidence += std::exchange(margin, 0.0);
     if (best && !(evidence > most)) continue;
@@ -201,12 +209,15 @@ std::optional<SetUp> find_set_up(const CalibrationInput& input) {
   set_up.format = found.format;
   set_up.is_reversed = found.is_reversed;
   set_up.is_mirrored = found.is_mirrored;
-  // A residual that is as long as the motion leaves nothing that the two have in common.
-  constexpr double kUnrelated = 0.5;
-  set_up.is_related = fit.sigma_m < kUnrelated * fit.median_m;
   const Estimated log_scale = estimated(0);
   const double scale = std::exp(-log_scale.value);
   set_up.scale = {scale, scale * log_scale.sigma};
+  set_up.least_scale = fit.least_scale;
+  // A residual that is as long as the motion leaves nothing that the two have in common, unless
+  // they are correlated all the same: R² is about the ratio of both scales.
+  constexpr double kUnrelated = 0.5;
+  set_up.is_related =
+      fit.sigma_m < kUnrelated * fit.median_m || set_up.least_scale.value > kUnrelated * scale;
   set_up.yaw_rad = estimated(1);
   set_up.lever_x_m = estimated(2);
   set_up.lever_y_m = estimated(3);

@@ -15,6 +15,10 @@ std::optional<SetUp> find_set_up(const CalibrationInput& input);
 /// they are.
 OdometryConvention mirrored(OdometryConvention convention);
 
+/// How ground truth turns where dead reckoning of the format turns; without a source where it does
+/// not say.
+TurnComparison compare_with_truth(const CalibrationInput& input, const OdometryTrack& track);
+
 /// By source, how it turns where dead reckoning of the format turns.
 std::vector<TurnComparison> compare_turns(const CalibrationInput& input,
                                           const OdometryTrack& track);

@@ -20,6 +20,18 @@ struct Start {
   double log_density = 0.0;
 };
 
+// The median times a factor, with its standard deviation of normal values.
+Estimated middle_of(const std::vector<double>& values, double factor) {
+  constexpr double kOfMedian = 1.2533;  // √(π / 2)
+  const double middle = upper_median(values);
+  std::vector<double> off;
+  off.reserve(values.size());
+  for (const double value : values) off.push_back(std::abs(value - middle));
+  const double sigma = upper_median(off) / kHalfNormalMedian;
+  return {factor * middle,
+          factor * kOfMedian * sigma / std::sqrt(static_cast<double>(values.size()))};
+}
+
 class Fit {
  public:
   Fit(std::span<const SeenMotion> motions, const OdometryTrack& track, const SetUpPrior& prior)
@@ -189,15 +201,20 @@ class Fit {
     // Registrations know their covariance to a half.
     fit.covariance(0, 0) += 0.25 * normal.noise_bias * normal.noise_bias;
     std::vector<double> lengths_m;
+    std::vector<double> shares;
     for (std::size_t i = 0; i < covered.size(); ++i) {
       const Beside& one = covered[i];
       lengths_m.push_back(one.reckoned.position().norm());
       const Eigen::Vector2d seen = turned(one, p);
       const Eigen::Vector2d arm = arm_of(one) * Eigen::Vector2d(p.lever_x_m, p.lever_y_m);
+      const Eigen::Vector2d reckoned = one.reckoned.position() - arm;
       const double squared = seen.squaredNorm();
-      fit.each.push_back(
-          {one.index, squared > 0.0 ? (one.reckoned.position() - arm).dot(seen) / squared : 1.0});
+      fit.each.push_back({one.index, squared > 0.0 ? reckoned.dot(seen) / squared : 1.0});
+      const double length = reckoned.squaredNorm();
+      if (length > 0.0) shares.push_back(seen.dot(reckoned) / length);
     }
+    // In the middle: weights by residuals would keep the errors that agree with the scale.
+    if (!shares.empty()) fit.least_scale = middle_of(shares, std::exp(-p.log_scale));
     fit.median_m = upper_median(lengths_m);
     return fit;
   }

@@ -39,6 +39,10 @@ struct SetUpFit {
   /// The same where it was highest on the way: a clock that the motions do not tell drifts off.
   double most_log_density = 0.0;
   double median_m = 0.0;  ///< length of a reckoned motion
+  /// Registered over reckoned length by regression on reckoned motions, where exp(−log_scale) is
+  /// that on registered ones. Errors of registrations make the latter too large, of dead reckoning
+  /// the former too small: the true one lies between.
+  Estimated least_scale;
   /// By motion covered: which one, and the reckoned length over the registered one.
   struct Motion {
     std::size_t index = 0;

@@ -66,16 +66,11 @@ std::optional<Estimated> slope_of(const std::vector<Turned>& turned) {
   return slope;
 }
 
-// Over some five seconds, of a short survey a twelfth of it, or the source's own interval: long
-// enough to turn, too short to turn half round.
-std::vector<Turned> turned(const HeadingTrack& said, const OdometryTrack& track) {
-  constexpr double kSpan_s = 5.0;
-  constexpr double kSpans = 12.0;
+// By spans, or the source's own interval. Of half a turn nobody knows which way round it was.
+std::vector<Turned> turned(const HeadingTrack& said, const OdometryTrack& track, double span_s) {
   constexpr double kMostTurn_rad = 2.5;
   std::vector<Turned> turned;
-  if (said.size() < 2) return turned;
-  const double all_s = 1e-9 * static_cast<double>(said.time_ns(said.size() - 1) - said.time_ns(0));
-  for (const auto& [from, to] : spans(said, std::min(kSpan_s, all_s / kSpans))) {
+  for (const auto& [from, to] : spans(said, span_s)) {
     const auto reckoned = reckoned_turn(said, track, from, to, 0.0);
     const double turn_rad = said.turn_rad(from, to);
     if (reckoned && std::abs(turn_rad) < kMostTurn_rad && std::abs(*reckoned) < kMostTurn_rad) {
@@ -87,12 +82,20 @@ std::vector<Turned> turned(const HeadingTrack& said, const OdometryTrack& track)
 
 TurnComparison compared(const std::string& source, const HeadingTrack& said,
                         const OdometryTrack& track) {
-  TurnComparison comparison;
-  const auto slope = slope_of(turned(said, track));
-  if (!slope) return comparison;
-  comparison.source = source;
-  comparison.slope = *slope;
-  return comparison;
+  // Some five seconds, of a short survey a twelfth of it: long enough to turn. Where both corners
+  // of each U-turn fall into one span, shorter ones.
+  constexpr double kSpan_s = 5.0;
+  constexpr double kSpans = 12.0;
+  constexpr double kShortest = 0.1;
+  if (said.size() < 2) return {};
+  const double all_s = 1e-9 * static_cast<double>(said.time_ns(said.size() - 1) - said.time_ns(0));
+  const double longest_s = std::min(kSpan_s, all_s / kSpans);
+  for (double span_s = longest_s; span_s > kShortest * longest_s; span_s *= 0.5) {
+    if (const auto slope = slope_of(turned(said, track, span_s))) {
+      return {source, *slope, std::nullopt};
+    }
+  }
+  return {};
 }
 
 // Twice the areas of the triangles of each three fixes, far enough apart for their noise: mirrored
@@ -122,15 +125,19 @@ std::vector<Turned> areas(const std::vector<PositionFix>& fixes, const OdometryT
 
 }  // namespace
 
+TurnComparison compare_with_truth(const CalibrationInput& input, const OdometryTrack& track) {
+  HeadingTrack truth;
+  for (const StampedPose& pose : input.references) truth.add(pose.time_ns, pose.pose.theta);
+  return compared("ground truth", truth, track);
+}
+
 std::vector<TurnComparison> compare_turns(const CalibrationInput& input,
                                           const OdometryTrack& track) {
   std::vector<TurnComparison> comparisons;
   const auto add = [&comparisons](TurnComparison comparison) {
     if (!comparison.source.empty()) comparisons.push_back(std::move(comparison));
   };
-  HeadingTrack truth;
-  for (const StampedPose& pose : input.references) truth.add(pose.time_ns, pose.pose.theta);
-  add(compared("ground truth", truth, track));
+  add(compare_with_truth(input, track));
   HeadingTrack compass;
   for (const MeasuredHeading& heading : input.readings.headings) {
     compass.add(heading.time_ns, heading.heading_rad);
