@@ -20,8 +20,8 @@ SolveResult Graph::searched(const SolveResult& result, Start start, ExtendedGrap
   if (!is_done(result.outcome)) return result;
   std::optional<SolveResult> found;
   if (!is_batch_) {
-    const auto added = std::count(is_loop_.begin() + static_cast<std::ptrdiff_t>(solved_),
-                                  is_loop_.end(), 1);
+    const auto added =
+        std::count(is_loop_.begin() + static_cast<std::ptrdiff_t>(solved_), is_loop_.end(), 1);
     const double rise = result.cost - cost_;
     cost_ = result.cost;
     solved_ = edges_.size();
@@ -31,8 +31,7 @@ SolveResult Graph::searched(const SolveResult& result, Start start, ExtendedGrap
     const double dof = 3.0 * (static_cast<double>(edges_.size() + 1) - static_cast<double>(size()));
     if (!(dof > 0.0) || !(result.cost > kMostCostShare * dof)) return result;
     std::vector<Node> nodes = solved.nodes;
-    const SolveResult other =
-        pose_graph::solve_graduated(solved.edges, nodes, limits, workers());
+    const SolveResult other = pose_graph::solve_graduated(solved.edges, nodes, limits, workers());
     if (!is_done(other.outcome) || !(other.cost < result.cost * (1.0 - limits.tolerance))) {
       return result;
     }

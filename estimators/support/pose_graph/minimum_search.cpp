@@ -49,9 +49,9 @@ SolveResult solve_graduated(std::span<const Edge> edges, std::vector<Node>& node
     for (Edge& edge : weighted) {
       if (!is_step(edge)) weigh(weight, edge);
     }
-    iterations += solve_batch(weighted, at, Start::given, {limits.max_iterations, kStageTolerance},
-                              workers)
-                      .iterations;
+    iterations +=
+        solve_batch(weighted, at, Start::given, {limits.max_iterations, kStageTolerance}, workers)
+            .iterations;
   }
   SolveResult result = solve_batch(edges, at, Start::given, limits, workers);
   result.iterations += iterations;

@@ -20,8 +20,8 @@ SolveResult solve_graduated(std::span<const Edge> edges, std::vector<Node>& node
 class MinimumSearch {
  public:
   /// Whether an update raised F by more than consistent registrations do, but with a chance of one
-  /// in ten thousand. After fruitless searches 3, 15, 63, … such updates go without: false loops raise
-  /// F, too.
+  /// in ten thousand. After fruitless searches 3, 15, 63, … such updates go without: false loops
+  /// raise F, too.
   bool is_due(double rise, std::size_t registrations);
 
   /// Solves from the starts of Start::automatic and by graduation. Where one ends lower than `cost`
