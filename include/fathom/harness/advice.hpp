@@ -8,9 +8,9 @@
 
 namespace fathom {
 
-/// A loop that misses by more before its update may lead `incremental_smoother` into a wrong
-/// minimum. On drawn logs it ended in one at 0.41 rad and more alone; `sparse_gauss_newton` never
-/// did (docs/which_back_end.md).
+/// A loop that misses by more before its update may lead steps into a wrong minimum. Without its
+/// search for a lower one `incremental_smoother` ended there on drawn logs, at 0.41 rad and more
+/// alone; `sparse_gauss_newton` never did (docs/which_back_end.md).
 inline constexpr double kMisfitOfWrongMinima_rad = 0.3;
 
 /// LoopTerms::curvature below which `trajectory_iekf` ends where the graphs end: a loop is left
