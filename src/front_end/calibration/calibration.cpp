@@ -44,14 +44,21 @@ void find_untold(const SetUp& found, const Senses& senses, std::vector<std::stri
       "the scale of dead reckoning itself, nor a yaw that its sensor and the camera share");
 }
 
+std::string unrelated_text(const SetUp& found) {
+  return fmt::format(
+      "{} registered motions have nothing to do with those of odometry0, in no order, sense, scale "
+      "or mounting: are they of the same survey, with clocks at most 5 s apart?",
+      found.motions);
+}
+
 }  // namespace
 
 Calibration calibrate(const CalibrationInput& input) {
   Calibration calibration;
-  // What is told of the camera (camera_doubts) would be found as a mounting here.
+  // camera_doubts tells of it.
   if (principal_point_looks_exchanged(input.camera)) return calibration;
   find_size(input.camera, calibration.findings);
-  // All else would be off for that.
+  // All else would be off for these.
   if (!calibration.findings.empty()) return calibration;
   if (find_still_odometry(input, calibration.findings)) return calibration;
   if (!input.is_visual_odometry) calibration.set_up = find_set_up(input);
@@ -61,10 +68,7 @@ Calibration calibrate(const CalibrationInput& input) {
     found->is_clock_told = std::ranges::count(plausible, false) == 0;
   }
   if (found && !found->is_related) {
-    calibration.findings.push_back(fmt::format(
-        "{} registered motions have nothing to do with those of odometry0, in no order, sense, "
-        "scale or mounting: are they of the same survey, with clocks at most 5 s apart?",
-        found->motions));
+    calibration.findings.push_back(unrelated_text(*found));
     return calibration;
   }
   if (input.odometry.rows.size() > 1) {

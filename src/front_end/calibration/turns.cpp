@@ -86,11 +86,11 @@ TurnComparison compared(const std::string& source, const HeadingTrack& said,
   // of each U-turn fall into one span, shorter ones.
   constexpr double kSpan_s = 5.0;
   constexpr double kSpans = 12.0;
-  constexpr double kShortest = 0.1;
+  constexpr int kHalvings = 4;
   if (said.size() < 2) return {};
   const double all_s = 1e-9 * static_cast<double>(said.time_ns(said.size() - 1) - said.time_ns(0));
-  const double longest_s = std::min(kSpan_s, all_s / kSpans);
-  for (double span_s = longest_s; span_s > kShortest * longest_s; span_s *= 0.5) {
+  double span_s = std::min(kSpan_s, all_s / kSpans);
+  for (int i = 0; i < kHalvings; ++i, span_s *= 0.5) {
     if (const auto slope = slope_of(turned(said, track, span_s))) {
       return {source, *slope, std::nullopt};
     }
