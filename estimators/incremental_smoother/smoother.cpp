@@ -96,7 +96,7 @@ SmootherResult Smoother::add_registrations(std::span<const RelativePose> registr
     result = iterate();
     // A redescending loss has minima that no start for least squares leads to.
     if (is_done(result.outcome) && !problem_.loops.is_on() &&
-        search_.is_due(gradient_.cost() - cost_before, registrations.size())) {
+        search_.is_due(cost_before, gradient_.cost(), registrations.size())) {
       search_lower(result);
     }
     // 4. Those are linearised again; a matrix that leaves a pose open is a failure.

@@ -22,10 +22,9 @@ SolveResult Graph::searched(const SolveResult& result, Start start, ExtendedGrap
   if (!is_batch_) {
     const auto added =
         std::count(is_loop_.begin() + static_cast<std::ptrdiff_t>(solved_), is_loop_.end(), 1);
-    const double rise = result.cost - cost_;
-    cost_ = result.cost;
+    const double before = std::exchange(cost_, result.cost);
     solved_ = edges_.size();
-    if (!search_.is_due(rise, static_cast<std::size_t>(added))) return result;
+    if (!search_.is_due(before, result.cost, static_cast<std::size_t>(added))) return result;
     found = search_.run(solved.edges, solved.nodes, result.cost, limits, workers());
   } else if (start == Start::automatic) {
     const double dof = 3.0 * (static_cast<double>(edges_.size() + 1) - static_cast<double>(size()));

@@ -1,5 +1,6 @@
 #include "estimators/support/pose_graph/minimum_search.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "estimators/support/pose_graph/batch.hpp"
@@ -59,8 +60,11 @@ SolveResult solve_graduated(std::span<const Edge> edges, std::vector<Node>& node
   return result;
 }
 
-bool MinimumSearch::is_due(double rise, std::size_t registrations) {
+bool MinimumSearch::is_due(double before, double after, std::size_t registrations) {
+  const double per_degree = registrations_ > 0.0 ? before / (3.0 * registrations_) : 0.0;
+  registrations_ += static_cast<double>(registrations);
   const double dof = 3.0 * static_cast<double>(registrations);
+  const double rise = (after - before) / std::max(1.0, per_degree);
   if (!(rise > dof) || !(rise > chi_squared_quantile(1.0 - kChanceOfRise, dof))) return false;
   if (left_out_ < to_leave_out_) {
     ++left_out_;

@@ -19,10 +19,11 @@ SolveResult solve_graduated(std::span<const Edge> edges, std::vector<Node>& node
 /// update may have missed it.
 class MinimumSearch {
  public:
-  /// Whether an update raised F by more than consistent registrations do, but with a chance of one
-  /// in ten thousand. After fruitless searches 3, 15, 63, … such updates go without: false loops
-  /// raise F, too.
-  bool is_due(double rise, std::size_t registrations);
+  /// Whether an update raised F, which was `before`, by more than consistent registrations do, but
+  /// with a chance of one in ten thousand. Covariances are taken to be too small by F per degree of
+  /// freedom, of all registrations so far, where that is above 1. After fruitless searches 3, 15,
+  /// 63, … such updates go without: false loops raise F, too.
+  bool is_due(double before, double after, std::size_t registrations);
 
   /// Solves from the starts of Start::automatic and by graduation. Where one ends lower than `cost`
   /// by more than the tolerance, `nodes` becomes it.
@@ -30,6 +31,7 @@ class MinimumSearch {
                                  const SolveLimits& limits, Workers* workers = nullptr);
 
  private:
+  double registrations_ = 0.0;
   int to_leave_out_ = 0;  ///< after the last search
   int left_out_ = 0;      ///< since then
 };
