@@ -26,7 +26,9 @@ std::vector<Node> dead_reckoned(std::span<const Edge> edges, const std::vector<N
   for (std::size_t k = 1; k < keyframes; ++k) {
     motions.push_back(between(pose_of(nodes[k - 1]), pose_of(nodes[k])));
   }
-  for (const Edge& edge : edges) {
+  // Of several the first, which is the step: others may measure less than a motion.
+  for (std::size_t e = edges.size(); e-- > 0;) {
+    const Edge& edge = edges[e];
     if (!is_step(edge) || static_cast<std::size_t>(edge.to) >= keyframes) continue;
     motions[static_cast<std::size_t>(edge.from)] = {edge.x, edge.y, edge.theta};
   }

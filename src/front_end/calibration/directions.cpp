@@ -184,10 +184,10 @@ void find_lengths(const CalibrationInput& input, const OdometryTrack& track, dou
     const auto length = length_of(ways);
     // Against pictures, too: else dead reckoning is what is off.
     if (!length || !is_gross(*length) || !is_gross(*length / registered)) continue;
-    findings.push_back(fmt::format(
-        "ways of {} are {} times as long as those of dead reckoning and pictures{}; "
-        "write its positions times {}",
-        source, short_number(*length, 4), named_factor(*length), short_number(1.0 / *length, 4)));
+    findings.push_back(
+        fmt::format("ways of {} are {} times as long as those of dead reckoning and pictures{}; "
+                    "write its positions in metres",
+                    source, short_number(*length, 4), named_factor(*length)));
   }
 }
 
