@@ -6,7 +6,9 @@
 #include "candidate_guide.hpp"
 #include "carried_readings.hpp"
 #include "fathom/harness/false_loops.hpp"
+#include "fathom/harness/recording_facts.hpp"
 #include "fathom/harness/survey.hpp"
+#include "fathom/measurements/adjusted_responses.hpp"
 #include "find_sigmas.hpp"
 #include "graph_recording.hpp"
 
@@ -138,6 +140,15 @@ bool have_intervals(const std::vector<FoundSigma>& found) {
   return std::ranges::none_of(found, [](const FoundSigma& one) { return std::isnan(one.low); });
 }
 
+void adjust_responses(Recording& recording, const EstimatorRegistry& registry) {
+  if (!recording.log.tells_shared_errors()) return;
+  const auto optimum = batch_optimum(recording.log, registry, {}, RegistrationErrors::shared);
+  if (!optimum) return;
+  std::vector<double> altitudes_m;
+  for (const Stance& stance : recording.keyframe_stances) altitudes_m.push_back(stance.altitude_m);
+  recording.log = with_adjusted_responses(recording.log, optimum->poses, altitudes_m);
+}
+
 // Once with standard deviations as assumed, again as they are found. Pairs are registered once.
 Recording record_survey(Survey& survey, const Configuration& configuration,
                         const CandidateReference& reference, const EstimatorRegistry& registry,
@@ -162,6 +173,7 @@ Recording record_survey(Survey& survey, const Configuration& configuration,
     sigmas = sigmas_of(found = find(true));
   }
   if (!sigmas.is_empty()) record_again(sigmas);
+  adjust_responses(recording, registry);
   recording.found_sigmas = std::move(found);
   return recording;
 }

@@ -46,22 +46,37 @@ class SharedLeastSquares {
     told_.push_back(told);
   }
 
+  /// Of each that was added, in order: the own error that n at the minimum leaves it.
+  std::vector<Eigen::Vector3d> own_errors() {
+    solve();
+    std::vector<Eigen::Vector3d> errors;
+    for (const Told& z : told_) errors.push_back(own_error(z));
+    return errors;
+  }
+
   double minimum(const std::function<double(double)>& loss) {
-    Eigen::SparseMatrix<double> A(rows_, rows_);
-    A.setFromTriplets(elements_.begin(), elements_.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(A);
-    const Eigen::VectorXd n = factor.solve(Eigen::Map<const Eigen::VectorXd>(
-        gradient_.data(), static_cast<Eigen::Index>(gradient_.size())));
-    double sum = n.squaredNorm();
+    solve();
+    double sum = n_.squaredNorm();
     for (const Told& z : told_) {
-      const Eigen::Vector3d own =
-          z.nu - z.G_from * n.segment<3>(z.from) - z.G_to * n.segment<3>(z.to);
+      const Eigen::Vector3d own = own_error(z);
       sum += loss(own.dot(z.W * own));
     }
     return sum;
   }
 
  private:
+  void solve() {
+    Eigen::SparseMatrix<double> A(rows_, rows_);
+    A.setFromTriplets(elements_.begin(), elements_.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(A);
+    n_ = factor.solve(Eigen::Map<const Eigen::VectorXd>(
+        gradient_.data(), static_cast<Eigen::Index>(gradient_.size())));
+  }
+
+  Eigen::Vector3d own_error(const Told& z) const {
+    return z.nu - z.G_from * n_.segment<3>(z.from) - z.G_to * n_.segment<3>(z.to);
+  }
+
   // The prior of n is the identity.
   Eigen::Index row_of(std::size_t k) {
     if (row_of_[k] < 0) {
@@ -88,6 +103,7 @@ class SharedLeastSquares {
   std::vector<Told> told_;
   std::vector<Eigen::Triplet<double>> elements_;
   std::vector<double> gradient_;
+  Eigen::VectorXd n_;
 };
 
 }  // namespace
@@ -122,6 +138,17 @@ double shared_chi2(const MeasurementLog& log, std::span<const Pose> trajectory) 
   if (!log.tells_shared_errors()) return chi2(log, trajectory);
   return absolute_chi2(log, trajectory) +
          shared_chi2_used(log, trajectory, {}, [](double value) { return value; });
+}
+
+std::vector<Eigen::Vector3d> own_errors(const MeasurementLog& log,
+                                        std::span<const Pose> trajectory) {
+  SharedLeastSquares shared(log.size());
+  for (std::size_t k = 1; k < log.size(); ++k) {
+    for (const RelativePose& z : log.arrival(k).registrations) {
+      if (z.shared) shared.add(z, trajectory, 1.0);
+    }
+  }
+  return shared.own_errors();
 }
 
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory,

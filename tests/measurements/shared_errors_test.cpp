@@ -23,6 +23,30 @@ using test::numerical_jacobian;
 using test::SharedWalk;
 using testing::HasSubstr;
 
+// Of registrations that are told, one below the other: ν, and its covariance own + G Gᵀ.
+struct Joint {
+  Eigen::MatrixXd G;
+  Eigen::MatrixXd own;
+  Eigen::VectorXd nu;
+};
+
+Joint joint_of(const std::vector<RelativePose>& told, std::size_t keyframes,
+               const std::vector<Pose>& poses) {
+  const auto rows = static_cast<Eigen::Index>(3 * told.size());
+  const auto unknowns = static_cast<Eigen::Index>(3 * keyframes);
+  Joint joint{Eigen::MatrixXd::Zero(rows, unknowns), Eigen::MatrixXd::Zero(rows, rows),
+              Eigen::VectorXd(rows)};
+  for (Eigen::Index i = 0; i < rows; i += 3) {
+    const RelativePose& z = told[static_cast<std::size_t>(i / 3)];
+    joint.nu.segment<3>(i) = z.motion.vector() - between(poses[z.from], poses[z.to]).vector();
+    joint.nu[i + 2] = wrap_angle(joint.nu[i + 2]);
+    joint.own.block<3, 3>(i, i) = z.shared->own;
+    joint.G.block<3, 3>(i, static_cast<Eigen::Index>(3 * z.from)) = z.shared->from.scaled();
+    joint.G.block<3, 3>(i, static_cast<Eigen::Index>(3 * z.to)) = z.shared->to.scaled();
+  }
+  return joint;
+}
+
 // νᵀ C⁻¹ ν with C the whole covariance of the registrations that are told, block by block.
 double naive_chi2(const MeasurementLog& log, const std::vector<Pose>& poses) {
   std::vector<RelativePose> told;
@@ -34,20 +58,8 @@ double naive_chi2(const MeasurementLog& log, const std::vector<Pose>& poses) {
       sum += chi2(z, poses[z.from], poses[z.to]);
     }
   }
-  const auto rows = static_cast<Eigen::Index>(3 * told.size());
-  const auto unknowns = static_cast<Eigen::Index>(3 * log.size());
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(rows, unknowns);
-  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(rows, rows);
-  Eigen::VectorXd nu(rows);
-  for (Eigen::Index i = 0; i < rows; i += 3) {
-    const RelativePose& z = told[static_cast<std::size_t>(i / 3)];
-    nu.segment<3>(i) = z.motion.vector() - between(poses[z.from], poses[z.to]).vector();
-    nu[i + 2] = wrap_angle(nu[i + 2]);
-    own.block<3, 3>(i, i) = z.shared->own;
-    G.block<3, 3>(i, static_cast<Eigen::Index>(3 * z.from)) = z.shared->from.scaled();
-    G.block<3, 3>(i, static_cast<Eigen::Index>(3 * z.to)) = z.shared->to.scaled();
-  }
-  return sum + nu.dot((own + G * G.transpose()).ldlt().solve(nu));
+  const Joint joint = joint_of(told, log.size(), poses);
+  return sum + joint.nu.dot((joint.own + joint.G * joint.G.transpose()).ldlt().solve(joint.nu));
 }
 
 TEST(SharedErrors, ChiSquaredEqualsThatOfTheJointCovariance) {
@@ -59,6 +71,24 @@ TEST(SharedErrors, ChiSquaredEqualsThatOfTheJointCovariance) {
       EXPECT_NEAR(shared_chi2(walk.log, poses), expected, 1e-9 * expected);
       EXPECT_GT(std::abs(chi2(walk.log, poses) - expected), 1e-6 * expected);
     }
+  }
+}
+
+TEST(SharedErrors, OwnErrorsAreWhatTheJointCovarianceExpects) {
+  const SharedWalk walk(30, 5, 8);
+  std::vector<RelativePose> told;
+  for (const RelativePose& z : walk.log.edges()) {
+    if (z.shared) told.push_back(z);
+  }
+  const auto rows = static_cast<Eigen::Index>(3 * told.size());
+  const Joint joint = joint_of(told, walk.log.size(), walk.truth);
+  // The conditional mean of ν's own part: own (own + G Gᵀ)⁻¹ ν.
+  const Eigen::VectorXd expected =
+      joint.own * (joint.own + joint.G * joint.G.transpose()).ldlt().solve(joint.nu);
+  const std::vector<Eigen::Vector3d> errors = own_errors(walk.log, walk.truth);
+  ASSERT_EQ(3 * errors.size(), static_cast<std::size_t>(rows));
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_LT((errors[i] - expected.segment<3>(static_cast<Eigen::Index>(3 * i))).norm(), 1e-9);
   }
 }
 

@@ -88,6 +88,11 @@ double shared_chi2(const MeasurementLog& log, std::span<const Pose> trajectory);
 double shared_chi2_used(const MeasurementLog& log, std::span<const Pose> trajectory,
                         std::span<const double> weights, const std::function<double(double)>& loss);
 
+/// Of each registration that tells its errors apart, in order of arrival: what the n of shared_chi2
+/// leaves it, ν − G n (m, m, rad; axes of `from`).
+std::vector<Eigen::Vector3d> own_errors(const MeasurementLog& log,
+                                        std::span<const Pose> trajectory);
+
 /// chi2 or shared_chi2.
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory, RegistrationErrors errors);
 
