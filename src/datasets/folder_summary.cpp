@@ -74,15 +74,6 @@ void sum_up_time(const FrameSource& source, FolderSummary& summary) {
     if (interval(i) > kGap * usual) gaps.push_back(i);
   }
   warn(summary, gaps, "time gaps, more than three times the median interval");
-  constexpr double kLeastInterval_ns = 5e6;
-  const double mean_ns =
-      static_cast<double>(end_ns - start_ns) / static_cast<double>(source.size() - 1);
-  if (mean_ns < kLeastInterval_ns) {
-    summary.warnings.push_back(
-        fmt::format("pictures are {} s apart in the mean; are the time stamps microseconds? "
-                    "expected nanoseconds",
-                    number(1e-9 * mean_ns)));
-  }
 }
 
 void sum_up_altitude(const FrameSource& source, FolderSummary& summary) {

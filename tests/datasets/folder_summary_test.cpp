@@ -17,7 +17,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 TEST(FolderSummary, StatesWhatIsThere) {
   const FolderFixture fixture;
@@ -39,22 +38,6 @@ TEST(FolderSummary, SaysHowExactAltitudesAre) {
   fixture.files["altimeter0/sensor.yaml"] = "sigma_absolute: 0.02\n";
   EXPECT_THAT(summarise_frames(ImageFolder(fixture.write())).facts,
               Contains(HasSubstr("mm per pixel, sigma 0.02 m")));
-}
-
-TEST(FolderSummary, AsksWhetherTimesAreMicroseconds) {
-  FolderFixture fixture;
-  fixture.files["cam0/data.csv"] = "0,a.png\n500000,b.png\n1000000,c.png\n";
-  for (const char* sensor : {"odometry0", "state_groundtruth_estimate0"}) {
-    fixture.files.erase(std::string(sensor) + "/data.csv");
-  }
-  fixture.files["altimeter0/data.csv"] = "0,2\n1000000,2\n";
-  EXPECT_THAT(summarise_frames(ImageFolder(fixture.write())).warnings,
-              Contains("pictures are 0.0005 s apart in the mean; are the time stamps microseconds? "
-                       "expected nanoseconds"));
-  fixture.files["cam0/data.csv"] = "0,a.png\n500000000,b.png\n1000000000,c.png\n";
-  fixture.files["altimeter0/data.csv"] = "0,2\n1000000000,2\n";
-  EXPECT_THAT(summarise_frames(ImageFolder(fixture.write())).warnings,
-              Not(Contains(HasSubstr("microseconds"))));
 }
 
 // Straight flight at constant altitude: the overlap is one less the step over the footprint's

@@ -70,6 +70,67 @@ TEST(Calibration, NamesAUnitOfFixesAndOfGroundTruth) {
   EXPECT_THAT(with(1.0, 1000.0), ElementsAre(HasSubstr("ways of ground truth are ")));
 }
 
+TEST(Calibration, NamesTimeStampsInMicroseconds) {
+  CalibrationInput input = TurningSurvey().input(11);
+  for (std::int64_t& time_ns : input.frame_times_ns) time_ns /= 1000;
+  for (SeenMotion& motion : input.motions) {
+    motion.from_ns /= 1000;
+    motion.to_ns /= 1000;
+  }
+  EXPECT_THAT(
+      calibrate(input).findings,
+      ElementsAre(HasSubstr("pictures are 0.0005 s apart in the mean; are the time stamps")));
+}
+
+TEST(Calibration, NamesVariancesOfOdometryOfAnotherUnit) {
+  const auto with = [](double of_metres, double of_radians) {
+    CalibrationInput input = TurningSurvey().input(11);
+    for (SeenMotion& motion : input.motions) {
+      motion.reckoned_variance_m2 *= of_metres;
+      motion.reckoned_variance_rad2 *= of_radians;
+    }
+    return calibrate(input).findings;
+  };
+  for (const double careful : {0.02, 1.0, 100.0}) {
+    EXPECT_THAT(with(careful, careful), IsEmpty()) << careful;
+  }
+  EXPECT_THAT(with(1e-6, 1.0),
+              ElementsAre(AllOf(HasSubstr("variances of odometry0 are too small: a motion has σ "),
+                                HasSubstr("step_var_x and step_var_y"))));
+  EXPECT_THAT(with(1.0, 1e6),
+              ElementsAre(AllOf(HasSubstr("too large"), HasSubstr("step_var_theta"))));
+  EXPECT_THAT(with(0.0, 0.0), IsEmpty());
+}
+
+// Its headings are as they were.
+TEST(Calibration, NamesAPathOfGroundTruthThatIsMirrored) {
+  for (const double sign : {1.0, -1.0}) {
+    CalibrationInput input = TurningSurvey().input(11);
+    for (double t = 0.0; t < 74.0; t += 0.5) {
+      Pose truth = TurningSurvey().truth(t);
+      truth.y *= sign;
+      input.references.push_back({TurningSurvey::nanoseconds(t), truth});
+    }
+    const std::vector<std::string> findings = calibrate(input).findings;
+    if (sign > 0.0) {
+      EXPECT_THAT(findings, IsEmpty());
+    } else {
+      EXPECT_THAT(findings, ElementsAre(HasSubstr("ground truth contradicts itself: its path ")));
+    }
+  }
+}
+
+TEST(Calibration, NamesGroundTruthThatHasNoHeadings) {
+  CalibrationInput input = TurningSurvey().input(11);
+  for (double t = 0.0; t < 74.0; t += 0.5) {
+    Pose truth = TurningSurvey().truth(t);
+    truth.theta = 0.0;
+    input.references.push_back({TurningSurvey::nanoseconds(t), truth});
+  }
+  EXPECT_THAT(calibrate(input).findings,
+              ElementsAre(HasSubstr("ground truth has heading 0 rad in each of its 148 poses")));
+}
+
 // Of a way that is the same from its end, registrations fit both.
 TEST(Calibration, GroundTruthTellsMirroredOdometryFromAReverseOrder) {
   TurningSurvey survey;
@@ -86,6 +147,20 @@ TEST(Calibration, GroundTruthTellsMirroredOdometryFromAReverseOrder) {
     EXPECT_THAT(calibrate(input).findings,
                 ElementsAre(AllOf(HasSubstr("odometry0 has y to starboard"),
                                   HasSubstr("as ground truth shows"))))
+        << seed;
+  }
+}
+
+TEST(Calibration, GroundTruthTellsMirroredPicturesFromAReverseOrder) {
+  TurningSurvey survey;
+  survey.even_about_s = 37.25;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    CalibrationInput input = survey.input(seed);
+    mirror_pictures(input);
+    for (const std::int64_t time_ns : input.frame_times_ns) {
+      input.references.push_back({time_ns, survey.truth(1e-9 * static_cast<double>(time_ns))});
+    }
+    EXPECT_THAT(calibrate(input).findings, ElementsAre(HasSubstr("the pictures are mirrored")))
         << seed;
   }
 }

@@ -81,7 +81,9 @@ struct TurningSurvey {
       seen.x = scale * seen.x + registration_noise_m * stream.normal();
       seen.y = scale * seen.y + registration_noise_m * stream.normal();
       input.motions.push_back({i - 1, i, input.frame_times_ns[i - 1], input.frame_times_ns[i], seen,
-                               2.0 * registration_noise_m * registration_noise_m});
+                               2.0 * registration_noise_m * registration_noise_m, 1e-8,
+                               2.0 * noise_m * noise_m * picture_interval_s,
+                               noise_rad * noise_rad * picture_interval_s});
     }
     return input;
   }

@@ -22,6 +22,10 @@ struct SeenMotion {
   std::int64_t to_ns = 0;
   Pose camera;  ///< of the camera at `to` in that at `from`: x to the top of the picture, y left
   double variance_m2 = 0.0;  ///< of its x and y together, as the registration tells it
+  double variance_rad2 = 0.0;
+  /// The same of dead reckoning's motion meanwhile, as it tells them; 0: it does not.
+  double reckoned_variance_m2 = 0.0;
+  double reckoned_variance_rad2 = 0.0;
 };
 
 /// Of a registration, a motion of the body with the camera mounted as its model says.

@@ -57,6 +57,7 @@ Calibration calibrate(const CalibrationInput& input) {
   Calibration calibration;
   // camera_doubts tells of it.
   if (principal_point_looks_exchanged(input.camera)) return calibration;
+  find_times(input.frame_times_ns, calibration.findings);
   find_size(input.camera, calibration.findings);
   // All else would be off for these.
   if (!calibration.findings.empty()) return calibration;
@@ -77,7 +78,7 @@ Calibration calibrate(const CalibrationInput& input) {
                               offset_s);
     calibration.turns = compare_turns(input, track);
     calibration.directions = compare_directions(input, track, calibration.turns);
-    find_still_compass(input, track, calibration.findings);
+    find_still_headings(input, track, calibration.findings);
     find_lengths(input, track, found ? found->scale.value : 1.0, calibration.findings);
   }
   const Senses senses = senses_of(input, calibration);
@@ -107,6 +108,8 @@ Calibration calibrate(const CalibrationInput& input) {
       find_scale(input, *found, calibration.findings);
     }
     find_clock(input, *found, calibration.findings);
+    // All else would be in what is left, too.
+    if (calibration.findings.empty()) find_variances(input, *found, calibration.findings);
     find_untold(*found, senses, calibration.untold);
   }
   find_turns(input, calibration, senses, calibration.findings);

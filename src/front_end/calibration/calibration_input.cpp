@@ -9,12 +9,22 @@ SeenMotion seen_motion(const FrameSource& frames, std::size_t from, std::size_t 
   const CameraModel& camera = frames.camera().model();
   const UncertainPose mount{{camera.mount_x_m, camera.mount_y_m, camera.mount_yaw_rad}};
   const UncertainPose seen = compose(inverse(mount), compose(registered, mount));
-  return {from,
-          to,
-          frames.info(from).time_ns,
-          frames.info(to).time_ns,
-          seen.mean,
-          seen.covariance.topLeftCorner<2, 2>().trace()};
+  SeenMotion motion{from,
+                    to,
+                    frames.info(from).time_ns,
+                    frames.info(to).time_ns,
+                    seen.mean,
+                    seen.covariance.topLeftCorner<2, 2>().trace(),
+                    seen.covariance(2, 2)};
+  UncertainPose reckoned;
+  for (std::size_t i = from + 1; i <= to; ++i) {
+    const std::optional<UncertainPose>& step = frames.info(i).motion;
+    if (!step) return motion;
+    reckoned = compose(reckoned, *step);
+  }
+  motion.reckoned_variance_m2 = reckoned.covariance.topLeftCorner<2, 2>().trace();
+  motion.reckoned_variance_rad2 = reckoned.covariance(2, 2);
+  return motion;
 }
 
 CalibrationInput calibration_input(const FrameSource& frames, const AbsoluteReadings& readings) {

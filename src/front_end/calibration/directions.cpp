@@ -159,7 +159,7 @@ std::vector<DirectionComparison> compare_directions(const CalibrationInput& inpu
                                                     const std::vector<TurnComparison>& turns) {
   std::vector<DirectionComparison> directions;
   // Axes that turn opposite ways are mirrored, which comes first.
-  if (sense_of(turns, "ground truth") > 0.0) {
+  if (sense_of(turns, "ground truth") > 0.0 && sense_of(turns, kTruthPath) >= 0.0) {
     if (const auto turn = turn_of(ways_of_truth(input.references, track))) {
       directions.push_back({"ground truth", *turn});
     }

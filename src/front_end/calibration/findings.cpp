@@ -213,6 +213,18 @@ void find_clock(const CalibrationInput& input, const SetUp& found,
                           "odometry0")));
 }
 
+void find_times(const std::vector<std::int64_t>& times_ns, std::vector<std::string>& findings) {
+  constexpr double kLeastInterval_ns = 5e6;
+  if (times_ns.size() < 2) return;
+  const double mean_ns = static_cast<double>(times_ns.back() - times_ns.front()) /
+                         static_cast<double>(times_ns.size() - 1);
+  if (mean_ns >= kLeastInterval_ns) return;
+  findings.push_back(
+      fmt::format("pictures are {} s apart in the mean; are the time stamps of cam0/data.csv "
+                  "microseconds? expected nanoseconds",
+                  short_number(1e-9 * mean_ns, 3)));
+}
+
 // A principal point far from the middle is that of pictures of another size.
 void find_size(const CameraModel& camera, std::vector<std::string>& findings) {
   constexpr double kFar = 0.25;

@@ -60,14 +60,19 @@ void find_scale(const CalibrationInput& input, const SetUp& found,
 bool is_late(const SetUp& found);
 void find_clock(const CalibrationInput& input, const SetUp& found,
                 std::vector<std::string>& findings);
+/// Of dead reckoning whose variances are of another unit than what is left of its motions.
+void find_variances(const CalibrationInput& input, const SetUp& found,
+                    std::vector<std::string>& findings);
 /// Of compass and fixes.
 void find_turns(const CalibrationInput& input, const Calibration& calibration, const Senses& senses,
                 std::vector<std::string>& findings);
 /// Of dead reckoning without headings: whether it is that, and nothing else can be told.
 bool find_still_odometry(const CalibrationInput& input, std::vector<std::string>& findings);
-/// Of a compass whose headings are one and the same while dead reckoning turns.
-void find_still_compass(const CalibrationInput& input, const OdometryTrack& track,
-                        std::vector<std::string>& findings);
+/// Of a compass or of ground truth whose headings are one and the same while dead reckoning turns.
+void find_still_headings(const CalibrationInput& input, const OdometryTrack& track,
+                         std::vector<std::string>& findings);
+/// Of time stamps of pictures in another unit.
+void find_times(const std::vector<std::int64_t>& times_ns, std::vector<std::string>& findings);
 /// Of pictures that have another size than the calibration's.
 void find_size(const CameraModel& camera, std::vector<std::string>& findings);
 

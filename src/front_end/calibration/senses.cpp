@@ -60,6 +60,7 @@ Senses senses_of(const CalibrationInput& input, const Calibration& calibration) 
       senses.by = {turn.source};
       return senses;
     }
+    if (turn.source == kTruthPath) continue;
     ++(is_opposite ? opposite : agree);
     senses.by.push_back(turn.source);
   }
@@ -147,11 +148,30 @@ bool find_directions(const Calibration& calibration, std::vector<std::string>& f
   return axes_are_turned;
 }
 
+namespace {
+
+void find_mirrored_truth(const Calibration& calibration, const TurnComparison& path,
+                         std::vector<std::string>& findings) {
+  const TurnComparison& headings = calibration.turns.front();
+  if (path.slope.value * headings.slope.value > 0.0) return;
+  findings.push_back(fmt::format(
+      "ground truth contradicts itself: its path turns {} where dead reckoning turns 1, "
+      "its headings turn {}: x and y of its positions are swapped, one has the other "
+      "sign, or its headings count the other way",
+      with_sigma(path.slope), with_sigma(headings.slope)));
+}
+
+}  // namespace
+
 void find_turns(const CalibrationInput& input, const Calibration& calibration, const Senses& senses,
                 std::vector<std::string>& findings) {
   constexpr double kLeastOfCompass_s = 0.25;
   for (const TurnComparison& turn : calibration.turns) {
     if (turn.source == "ground truth") continue;
+    if (turn.source == kTruthPath) {
+      find_mirrored_truth(calibration, turn, findings);
+      continue;
+    }
     const bool is_opposite =
         is_opposite_to_pictures(turn, calibration) != senses.pictures_are_mirrored;
     const bool is_compass = turn.source == "compass0";
@@ -174,49 +194,6 @@ void find_turns(const CalibrationInput& input, const Calibration& calibration, c
           turn.time_offset_s->value < 0.0 ? "later" : "earlier", turn.time_offset_s->value));
     }
   }
-}
-
-void find_still_compass(const CalibrationInput& input, const OdometryTrack& track,
-                        std::vector<std::string>& findings) {
-  constexpr double kStill_rad = 1e-3;  // less than the noise of any compass
-  constexpr double kTurned_rad = 0.5;
-  const std::vector<MeasuredHeading>& headings = input.readings.headings;
-  double turned_rad = 0.0;
-  for (const MeasuredHeading& heading : headings) {
-    const MeasuredHeading& first = headings.front();
-    if (std::abs(wrap_angle(heading.heading_rad - first.heading_rad)) > kStill_rad) return;
-    const auto motion = track.motion(first.time_ns, heading.time_ns);
-    if (motion) turned_rad = std::max(turned_rad, std::abs(motion->theta));
-  }
-  if (turned_rad < kTurned_rad) return;
-  findings.push_back(fmt::format(
-      "compass0 says {} rad in each of its {} headings while odometry0 turns by {} rad: "
-      "it measures nothing; remove its folder, or write "
-      "'dataset.compass.use: false'",
-      short_number(headings.front().heading_rad), headings.size(), short_number(turned_rad)));
-}
-
-bool find_still_odometry(const CalibrationInput& input, std::vector<std::string>& findings) {
-  constexpr double kStill_rad = 1e-6;
-  constexpr double kTurned_rad = 1.0;
-  const std::vector<ReckonedRow>& rows = input.odometry.rows;
-  if (input.is_visual_odometry || rows.size() < 2) return false;
-  for (const ReckonedRow& row : rows) {
-    if (std::abs(row.heading_rad - rows.front().heading_rad) > kStill_rad) return false;
-  }
-  double turned_rad = 0.0;
-  double largest_rad = 0.0;
-  for (const SeenMotion& motion : input.motions) {
-    turned_rad += motion.camera.theta;
-    largest_rad = std::max(largest_rad, std::abs(turned_rad));
-  }
-  if (largest_rad < kTurned_rad) return false;
-  findings.push_back(
-      fmt::format("odometry0 has heading {} rad in each of its {} rows while the pictures turn by "
-                  "{} rad: it measures none; write its headings, or remove its folder, and the "
-                  "motions are made of the pictures",
-                  short_number(rows.front().heading_rad), rows.size(), short_number(largest_rad)));
-  return true;
 }
 
 }  // namespace fathom

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fathom/core/median.hpp"
+#include "interpolation.hpp"
 #include "picture_order.hpp"
 #include "residuals.hpp"
 #include "scale_step.hpp"
@@ -96,24 +97,19 @@ double evidence_of(const Reading& reading, const SetUpFit& fit, const SetUpPrior
   return evidence;
 }
 
-// Whether ground truth turns the other way than dead reckoning read so. Nothing else tells a survey
-// in reverse order from one whose headings count the other way, where its way is even.
 bool turns_against_truth(const CalibrationInput& input, const OdometryFormat& format) {
   return compare_with_truth(input, OdometryTrack(input.odometry, format)).slope.value < 0.0;
 }
 
-// By how much a motion is likelier whose clock lies between two rows, at most: interpolation
-// averages noise there, of variance K − ½ for K rows a motion.
-double gain_of_interpolation(const CalibrationInput& input) {
-  std::vector<double> motions_s;
-  for (const SeenMotion& motion : input.motions) motions_s.push_back(seconds_of(motion));
-  std::vector<double> rows_s;
-  const auto& rows = input.odometry.rows;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    rows_s.push_back(1e-9 * static_cast<double>(rows[i].time_ns - rows[i - 1].time_ns));
-  }
-  const double rows_each = std::max(1.0, upper_median(motions_s) / upper_median(rows_s));
-  return -1.5 * std::log1p(-0.5 / rows_each);
+// Whether ground truth turns the other way than dead reckoning read so. Nothing else tells a survey
+// in reverse order from one whose headings count the other way, where its way is even. The mirror
+// image of what is configured stands for mirrored pictures, of which ground truth does not know.
+bool contradicts_truth(const CalibrationInput& input, const Reading& reading) {
+  const OdometryFormat& configured = input.odometry.format;
+  const bool is_of_mirrored_pictures = !reading.is_reversed &&
+                                       reading.format.is_in_degrees == configured.is_in_degrees &&
+                                       reading.format.convention == mirrored(configured.convention);
+  return turns_against_truth(input, is_of_mirrored_pictures ? configured : reading.format);
 }
 
 struct FittedReading {
@@ -129,15 +125,15 @@ std::optional<FittedReading> best_reading(const CalibrationInput& input, const S
   constexpr double kOfEach = 0.1;
   std::optional<FittedReading> best;
   double most = -std::numeric_limits<double>::infinity();
-  double margin =
-      kOfAll + (kOfEach + gain_of_interpolation(input)) * static_cast<double>(input.motions.size());
+  double margin = kOfAll + kOfEach * static_cast<double>(input.motions.size());
   for (const Reading& reading : readings_of(input.odometry.format)) {
-    const auto fit = fit_set_up(motions_of(input, reading),
-                                OdometryTrack(input.odometry, reading.format), prior);
+    const std::vector<SeenMotion> motions = motions_of(input, reading);
+    const auto fit = fit_set_up(motions, OdometryTrack(input.odometry, reading.format), prior);
     if (!fit) continue;
     constexpr double kOfTruth = 50.0;
-    double evidence = evidence_of(reading, *fit, prior, input);
-    if (turns_against_truth(input, reading.format)) evidence -= kOfTruth;
+    double evidence = evidence_of(reading, *fit, prior, input) -
+                      gain_of_interpolation(input.odometry, motions, fit->value.time_offset_s);
+    if (contradicts_truth(input, reading)) evidence -= kOfTruth;
     // The first one is what is configured.
     if (!best) evidence += std::exchange(margin, 0.0);
     if (best && !(evidence > most)) continue;

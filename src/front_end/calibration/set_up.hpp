@@ -19,6 +19,9 @@ OdometryConvention mirrored(OdometryConvention convention);
 /// not say.
 TurnComparison compare_with_truth(const CalibrationInput& input, const OdometryTrack& track);
 
+/// The source of a TurnComparison: how the positions of ground truth turn, whatever its headings.
+inline constexpr const char* kTruthPath = "the path of ground truth";
+
 /// By source, how it turns where dead reckoning of the format turns.
 std::vector<TurnComparison> compare_turns(const CalibrationInput& input,
                                           const OdometryTrack& track);

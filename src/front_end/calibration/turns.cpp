@@ -9,6 +9,8 @@
 namespace fathom {
 namespace {
 
+constexpr double kFarSigmas = 10.0;  // between fixes whose way has a direction
+
 // Two turns over the same time: of dead reckoning and of a source, as angles or as areas.
 struct Turned {
   double reckoned = 0.0;
@@ -98,14 +100,29 @@ TurnComparison compared(const std::string& source, const HeadingTrack& said,
   return {};
 }
 
+// Of ground truth, whose noise is not told: that of a long way's ends does not matter.
+std::vector<PositionFix> positions_of(const std::vector<StampedPose>& truth) {
+  constexpr double kWays = 60.0;
+  double path_m = 0.0;
+  for (std::size_t k = 1; k < truth.size(); ++k) {
+    path_m += (truth[k].pose.position() - truth[k - 1].pose.position()).norm();
+  }
+  const double sigma_m = path_m / kWays / kFarSigmas;
+  std::vector<PositionFix> fixes;
+  for (const StampedPose& pose : truth) {
+    fixes.push_back(
+        {pose.time_ns, pose.pose.position(), sigma_m * sigma_m * Eigen::Matrix2d::Identity()});
+  }
+  return fixes;
+}
+
 // Twice the areas of the triangles of each three fixes, far enough apart for their noise: mirrored
 // paths have them negative.
 std::vector<Turned> areas(const std::vector<PositionFix>& fixes, const OdometryTrack& track) {
-  constexpr double kSigmas = 10.0;
   std::vector<const PositionFix*> corners;
   std::vector<Turned> areas;
   for (const PositionFix& fix : fixes) {
-    const double far_m = kSigmas * std::sqrt(0.5 * fix.covariance.trace());
+    const double far_m = kFarSigmas * std::sqrt(0.5 * fix.covariance.trace());
     if (!corners.empty() && (fix.position_m - corners.back()->position_m).norm() < far_m) continue;
     corners.push_back(&fix);
     if (corners.size() < 3) continue;
@@ -138,6 +155,10 @@ std::vector<TurnComparison> compare_turns(const CalibrationInput& input,
     if (!comparison.source.empty()) comparisons.push_back(std::move(comparison));
   };
   add(compare_with_truth(input, track));
+  if (!comparisons.empty()) {
+    const auto slope = slope_of(areas(positions_of(input.references), track));
+    if (slope) add({kTruthPath, *slope, std::nullopt});
+  }
   HeadingTrack compass;
   for (const MeasuredHeading& heading : input.readings.headings) {
     compass.add(heading.time_ns, heading.heading_rad);
