@@ -6,6 +6,11 @@ void FrontEndOptions::describe(OptionTable& table) {
   table.group("keyframes", keyframes);
   table.group("candidates", candidates);
   describe_registration(table);
+  table.enumeration<RepeatedKeypoints>(
+      "repeated_keypoints", repeated_keypoints,
+      {{"once", RepeatedKeypoints::once}, {"independent", RepeatedKeypoints::independent}},
+      "keypoints that several registrations of a picture have in common count once in their own "
+      "covariances, or in each as if it were alone");
   table.real("visual_odometry.fallback_sigma_altitudes", visual_odometry.sigma_altitudes,
              Range::positive(), "altitudes",
              "uncertainty in x and y of a motion repeated because consecutive pictures do not "

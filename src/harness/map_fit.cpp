@@ -65,6 +65,7 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
   if (log.registration_count() == 0 || !(fit.degrees_of_freedom > 0.0)) return std::nullopt;
   fit.chi2 = chi2(log, estimate, optimum.errors);
   fit.chi2_optimum = optimum.chi2;
+  fit.chi2_alone = chi2_alone(log, optimum.poses, optimum.errors);
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   Eigen::Vector3d variances = Eigen::Vector3d::Zero();
   std::vector<double> of_steps;
@@ -74,7 +75,8 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
     const Eigen::Vector3d e =
         residual(step.motion, optimum.poses[step.from], optimum.poses[step.to]);
     if (!step.is_hole) of_steps.push_back(e.dot(step.information * e));
-    for (const RelativePose& z : log.arrival(k).registrations) {
+    for (const RelativePose& told : log.arrival(k).registrations) {
+      const RelativePose z = told.alone();
       const Eigen::Vector3d off = residual(z.motion, optimum.poses[z.from], optimum.poses[z.to]);
       of_registrations.push_back(off.dot(z.information * off));
       squares += off.cwiseAbs2();
@@ -123,8 +125,8 @@ std::string step_remark(const MapFit& fit) {
 }
 
 std::string misfit_remark(const MapFit& fit, bool set_up_is_wrong) {
-  const double of_steps = fit.steps_at_optimum / fit.chi2_optimum;
-  const double of_absolute = fit.absolute_at_optimum / fit.chi2_optimum;
+  const double of_steps = fit.steps_at_optimum / fit.chi2_alone;
+  const double of_absolute = fit.absolute_at_optimum / fit.chi2_alone;
   const std::string text = "the measurements do not fit each other: F per degree of freedom is " +
                            short_number(fit.per_degree_of_freedom()) +
                            " at its best, and 1 is expected; ";

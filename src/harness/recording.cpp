@@ -5,6 +5,7 @@
 
 #include "candidate_guide.hpp"
 #include "carried_readings.hpp"
+#include "fathom/front_end/repeated_keypoints.hpp"
 #include "fathom/harness/false_loops.hpp"
 #include "fathom/harness/recording_facts.hpp"
 #include "fathom/harness/survey.hpp"
@@ -174,6 +175,11 @@ Recording record_survey(Survey& survey, const Configuration& configuration,
   }
   if (!sigmas.is_empty()) record_again(sigmas);
   adjust_responses(recording, registry);
+  if (configuration.front_end.repeated_keypoints == RepeatedKeypoints::once) {
+    recording.log = count_keypoints_once(
+        recording.log,
+        repeats_of_keypoints(recording.log, *recording.camera, recording.keyframe_stances));
+  }
   recording.found_sigmas = std::move(found);
   return recording;
 }

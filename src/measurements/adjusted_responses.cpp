@@ -26,6 +26,7 @@ RelativePose adjusted(const RelativePose& z, Eigen::Vector3d own_error,
   if (shared == *z.shared) return z;
   RelativePose told = RelativePose::from_covariance(z.from, z.to, z.motion, shared.total());
   told.inliers = z.inliers;
+  told.repeats = z.repeats;
   told.shared = std::make_shared<const SharedErrors>(shared);
   return told;
 }
@@ -36,18 +37,9 @@ MeasurementLog with_adjusted_responses(const MeasurementLog& log, std::span<cons
                                        std::span<const double> altitudes_m) {
   const std::vector<Eigen::Vector3d> errors = own_errors(log, optimum);
   auto error = errors.begin();
-  MeasurementLog changed(log.start());
-  for (std::size_t k = 0; k < log.size(); ++k) {
-    const KeyframeMeasurements& arrival = log.arrival(k);
-    if (k > 0) changed.add_keyframe(arrival.step);
-    for (const AbsolutePose& z : arrival.absolute) changed.add_absolute(z);
-    for (const RelativePose& z : arrival.registrations) {
-      changed.add_registration(z.shared ? adjusted(z, *error++, altitudes_m) : z);
-    }
-  }
-  changed.ids = log.ids;
-  changed.guess = log.guess;
-  return changed;
+  return with_registrations(log, [&](const RelativePose& z, std::size_t) {
+    return z.shared ? adjusted(z, *error++, altitudes_m) : z;
+  });
 }
 
 }  // namespace fathom

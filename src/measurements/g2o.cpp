@@ -26,6 +26,7 @@ RelativePose measurement(const G2oFile::Edge& edge, const KeyframeOf& keyframe_o
   z.motion = edge.motion;
   z.information = edge.information;
   z.inliers = edge.inliers;
+  z.repeats = edge.repeats;
   return z;
 }
 

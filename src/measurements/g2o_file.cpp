@@ -152,6 +152,9 @@ class Scanner {
     if (words[0] == "inliers" && words.size() == 2) {
       const std::int64_t count = parse_integer(words[1]).value_or(-1);
       if (count >= 0 && count < 1'000'000'000) pending_inliers_ = static_cast<int>(count);
+    } else if (words[0] == "repeats" && words.size() == 2) {
+      const double repeats = parse_real(words[1]).value_or(1.0);
+      if (repeats >= 1.0 && repeats < 1e9) pending_repeats_ = repeats;
     } else if (words[0] == "hole") {
       if (const auto hole = hole_of(words))
         file_.holes.emplace(std::pair(hole->from, hole->to), *hole);
@@ -173,6 +176,7 @@ class Scanner {
     expect_fields(fields, 12, "i j x y theta and six information values");
     G2oFile::Edge edge;
     edge.inliers = std::exchange(pending_inliers_, std::nullopt);
+    edge.repeats = std::exchange(pending_repeats_, 1.0);
     edge.from = integer(fields[1]);
     edge.to = integer(fields[2]);
     edge.motion = read_pose(fields, 3);
@@ -234,6 +238,7 @@ class Scanner {
   TagCounts landmarks_;
   std::size_t first_landmark_ = 0;  ///< line; 0: none
   std::optional<int> pending_inliers_;
+  double pending_repeats_ = 1.0;
   std::optional<Eigen::Matrix3d> pending_start_;
 };
 

@@ -28,6 +28,7 @@ struct G2oFile {
     Pose motion;
     Eigen::Matrix3d information;
     std::optional<int> inliers;
+    double repeats = 1.0;
     std::shared_ptr<const SharedErrors> shared;  ///< of a file beside it
     std::size_t line = 0;
   };

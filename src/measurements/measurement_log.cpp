@@ -65,6 +65,26 @@ std::vector<Pose> MeasurementLog::odometry() const {
   return compose_trajectory(origin(), motions);
 }
 
+MeasurementLog with_registrations(
+    const MeasurementLog& log,
+    const std::function<RelativePose(const RelativePose&, std::size_t)>& change) {
+  MeasurementLog changed(log.start());
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    const KeyframeMeasurements& arrival = log.arrival(k);
+    if (k > 0) changed.add_keyframe(arrival.step);
+    for (const AbsolutePose& z : arrival.absolute) changed.add_absolute(z);
+    for (const RelativePose& z : arrival.registrations) {
+      changed.add_registration(change(z, count));
+      ++count;
+    }
+  }
+  changed.ids = log.ids;
+  changed.guess = log.guess;
+  changed.self_edges = log.self_edges;
+  return changed;
+}
+
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory) {
   assert(trajectory.size() == log.size());
   double sum = absolute_chi2(log, trajectory);

@@ -23,10 +23,29 @@ RelativePose RelativePose::reversed() const {
   RelativePose measurement = from_covariance(to, from, back.mean, back.covariance);
   measurement.inliers = inliers;
   measurement.is_hole = is_hole;
+  measurement.repeats = repeats;
   if (shared) {
     Eigen::Matrix3d J;
     inverse(motion, &J);
     measurement.shared = std::make_shared<const SharedErrors>(shared->reversed(J));
+  }
+  return measurement;
+}
+
+RelativePose RelativePose::alone() const {
+  return repeats == 1.0 ? *this : repeated(1.0 / repeats);
+}
+
+RelativePose RelativePose::repeated(double factor) const {
+  RelativePose measurement = *this;
+  measurement.repeats *= factor;
+  if (shared) {
+    SharedErrors parts = *shared;
+    parts.own *= factor;
+    measurement.information = from_covariance(from, to, motion, parts.total()).information;
+    measurement.shared = std::make_shared<const SharedErrors>(parts);
+  } else {
+    measurement.information /= factor;
   }
   return measurement;
 }
@@ -40,6 +59,7 @@ RelativePose without_shared(const RelativePose& z, const Eigen::Vector3d& error)
   RelativePose apart = RelativePose::from_covariance(
       z.from, z.to, {left.x(), left.y(), wrap_angle(left.z())}, z.shared->own);
   apart.shared = z.shared;
+  apart.repeats = z.repeats;
   return apart;
 }
 

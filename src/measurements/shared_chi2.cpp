@@ -157,4 +157,10 @@ double chi2(const MeasurementLog& log, std::span<const Pose> trajectory,
                                               : chi2(log, trajectory);
 }
 
+double chi2_alone(const MeasurementLog& log, std::span<const Pose> trajectory,
+                  RegistrationErrors errors) {
+  return chi2(with_registrations(log, [](const RelativePose& z, std::size_t) { return z.alone(); }),
+              trajectory, errors);
+}
+
 }  // namespace fathom

@@ -22,12 +22,19 @@ struct VisualOdometryFallback {
   double sigma_rad = 0.1;
 };
 
+/// What is made of keypoints that several registrations have in common.
+enum class RepeatedKeypoints {
+  once,        ///< own covariances are so much larger that each counts once (repeats_of_keypoints)
+  independent  ///< each registration as if its keypoints were its own
+};
+
 struct FrontEndOptions {
   KeyframeOptions keyframes;
   CandidateOptions candidates;
   MaskUse mask = MaskUse::automatic;
   FeatureOptions features;
   RegistrationOptions registration;
+  RepeatedKeypoints repeated_keypoints = RepeatedKeypoints::once;
   VisualOdometryFallback visual_odometry;
 
   /// In a config these keys stand under `front_end.`.

@@ -36,12 +36,15 @@ struct MapFit {
   std::optional<double> chi2_used = {};  ///< of the measurements that it used (Run::chi2_used)
   double absolute_left_out = 0.0;        ///< of the rest, what is of absolute measurements
   double chi2_optimum = 0.0;             ///< F of the batch optimum
-  double steps_at_optimum = 0.0;         ///< the part of it that is of dead reckoning
-  double absolute_at_optimum = 0.0;      ///< the part that is of absolute measurements
-  double degrees_of_freedom = 0.0;       ///< of the optimum (degrees_of_freedom)
-  double unknowns = 0.0;                 ///< that are determined (determined_unknowns)
-  NisSpread steps = {};                  ///< at the optimum, holes left out
-  NisSpread registrations = {};          ///< likewise
+  /// The same with registrations' covariances as they are of each alone (RelativePose::alone), as
+  /// are all parts of it below.
+  double chi2_alone = 0.0;
+  double steps_at_optimum = 0.0;     ///< the part of it that is of dead reckoning
+  double absolute_at_optimum = 0.0;  ///< the part that is of absolute measurements
+  double degrees_of_freedom = 0.0;   ///< of the optimum (degrees_of_freedom)
+  double unknowns = 0.0;             ///< that are determined (determined_unknowns)
+  NisSpread steps = {};              ///< at the optimum, holes left out
+  NisSpread registrations = {};      ///< likewise
   /// Whether the estimator considers errors that registrations share, so that its gains minimise no
   /// F and leave it above the optimum.
   bool considers_shared_errors = false;
@@ -53,7 +56,7 @@ struct MapFit {
   double registration_sigma_rad = 0.0;
 
   /// F per degree of freedom at the optimum: 1 is expected of right loops and covariances.
-  double per_degree_of_freedom() const { return chi2_optimum / degrees_of_freedom; }
+  double per_degree_of_freedom() const { return chi2_alone / degrees_of_freedom; }
 
   /// Whether F of the estimate lies above its optimum by no more than 99 of 100 draws from the
   /// posterior would: F − F* is χ² with as many degrees of freedom as there are unknowns. Where F

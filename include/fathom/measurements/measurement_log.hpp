@@ -70,6 +70,11 @@ class MeasurementLog {
   std::vector<KeyframeMeasurements> measurements_;  ///< of keyframe 0 without a step
 };
 
+/// The log with each registration as `change` makes it of it and its place in the order of arrival.
+MeasurementLog with_registrations(
+    const MeasurementLog& log,
+    const std::function<RelativePose(const RelativePose&, std::size_t)>& change);
+
 /// F = Σ eᵀ Ω e over all edges as written, absolute measurements and an uncertain start, no ½: the
 /// cost that every estimator is compared by. A hole costs nothing.
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory);
@@ -95,6 +100,11 @@ std::vector<Eigen::Vector3d> own_errors(const MeasurementLog& log,
 
 /// chi2 or shared_chi2.
 double chi2(const MeasurementLog& log, std::span<const Pose> trajectory, RegistrationErrors errors);
+
+/// The same with each registration's covariance as it is of it alone (RelativePose::alone): what F
+/// per degree of freedom is of.
+double chi2_alone(const MeasurementLog& log, std::span<const Pose> trajectory,
+                  RegistrationErrors errors);
 
 /// How many unknowns the measurements determine: the rank of the Jacobian of their residuals. Three
 /// a keyframe but the first, if it is fixed, where neither holes nor a free start leave any open.

@@ -30,6 +30,9 @@ struct RelativePose {
   /// Of a step: nothing was measured. `motion` is a guess, and `information` that of a declared,
   /// wide covariance: what a filter begins with. F does not count it.
   bool is_hole = false;
+  /// Of a registration: its own covariance stands so many times for what it is of it alone, because
+  /// other registrations of its pictures have keypoints in common with it (count_keypoints_once).
+  double repeats = 1.0;
   /// Of a registration: its errors apart, where that is known.
   /// `information` is that of their total(), for whoever does not ask.
   std::shared_ptr<const SharedErrors> shared = nullptr;
@@ -39,6 +42,11 @@ struct RelativePose {
                                       const Eigen::Matrix3d& covariance);
 
   Eigen::Matrix3d covariance() const;
+
+  /// With the covariance that it has of itself: what its error against the truth is judged by.
+  RelativePose alone() const;
+  /// With its own covariance times `factor`, as one of several that have keypoints in common.
+  RelativePose repeated(double factor) const;
 
   /// The later of its two keyframes: a registration arrives with it.
   std::size_t newest() const { return from > to ? from : to; }

@@ -23,8 +23,9 @@ Value mean_nis_truth(const JudgedRun& run) {
   if (facts.run == nullptr || !facts.ground_truth || facts.log.registration_count() == 0) return {};
   const std::span<const Pose> truth = *facts.ground_truth;
   double sum = 0.0;
-  for_registrations(facts.log,
-                    [&](const RelativePose& z) { sum += chi2(z, truth[z.from], truth[z.to]); });
+  for_registrations(facts.log, [&](const RelativePose& z) {
+    sum += chi2(z.alone(), truth[z.from], truth[z.to]);
+  });
   return sum / static_cast<double>(facts.log.registration_count());
 }
 
@@ -33,7 +34,7 @@ Value chi2_per_dof(const JudgedRun& run) {
   if (facts.run == nullptr) return {};
   const double degrees = degrees_of_freedom(facts.log);
   if (!(degrees > 0.0)) return {};
-  return cost_of(facts) / degrees;
+  return chi2_alone(facts.log, facts.estimate, facts.run->errors) / degrees;
 }
 
 // Of the registrations that share a picture: Σ u and Σ uᵀu of their whitened errors u, and the same
@@ -70,8 +71,9 @@ Value picture_error_correlation(const JudgedRun& run) {
   const bool is_estimated = facts.run->errors == RegistrationErrors::shared;
   std::vector<SharedPicture> pictures(facts.log.size());
   for_registrations(facts.log, [&](const RelativePose& z) {
-    pictures[z.to].add(z, truth, is_estimated);
-    pictures[z.from].add(z.reversed(), truth, is_estimated);
+    const RelativePose alone = z.alone();
+    pictures[z.to].add(alone, truth, is_estimated);
+    pictures[z.from].add(alone.reversed(), truth, is_estimated);
   });
   double products = 0.0;  // Σ uᵢᵀuⱼ over the pairs i < j of a picture
   double squares = 0.0;   // Σ (uᵢᵀuᵢ + uⱼᵀuⱼ) / 2 over the same
@@ -97,8 +99,9 @@ std::vector<Metric> honesty_metrics() {
        "of it the estimator estimates; 0 expected",
        picture_error_correlation},
       {"chi2_per_dof", "F per degree of freedom", "", Better::neither,
-       "F over its degrees of freedom, the rows of its residual less the rank of their Jacobian; 1 "
-       "expected at the optimum, below: covariances are too large, or errors are shared and cancel",
+       "F over its degrees of freedom, the rows of its residual less the rank of their Jacobian, "
+       "each registration with the covariance that it has alone; 1 expected at the optimum, below: "
+       "covariances are too large, or errors are shared and cancel",
        chi2_per_dof},
   };
 }
