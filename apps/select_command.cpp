@@ -7,6 +7,7 @@
 #include "apps/output.hpp"
 #include "fathom/core/input_error.hpp"
 #include "fathom/core/text.hpp"
+#include "fathom/evaluation/metrics.hpp"
 #include "fathom/workflow/select.hpp"
 
 namespace fathom {
@@ -23,6 +24,14 @@ struct SelectFlags {
   bool quiet = false;
 };
 
+// The least ANEES is that of the most underconfident one.
+void require_direction(const std::string& flag, const std::string& metric) {
+  const auto known = find_metric(metric);
+  if (!known || known->better != Better::neither) return;
+  throw InputError(flag + " " + metric + ": neither more nor less of '" + metric +
+                   "' is better; it can be required, as in --require '" + metric + "<=NUMBER'");
+}
+
 SelectionQuery query_of(const SelectFlags& flags) {
   SelectionQuery query;
   for (const std::string& text : flags.requirements) {
@@ -30,6 +39,8 @@ SelectionQuery query_of(const SelectFlags& flags) {
   }
   if (!flags.minimise.empty()) query.objective = flags.minimise;
   if (!flags.maximise.empty()) query.objective = flags.maximise;
+  if (!flags.minimise.empty()) require_direction("--minimise", flags.minimise);
+  if (!flags.maximise.empty()) require_direction("--maximise", flags.maximise);
   query.maximise = !flags.maximise.empty();
   query.where = flags.where;
   query.allowed_failures = flags.allowed_failures;

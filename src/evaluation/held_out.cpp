@@ -33,8 +33,8 @@ std::optional<double> mean_nis_of(const HeldOutLoops& held_out) {
   double sum = 0.0;
   for (std::size_t i = 0; i < held_out.tested.size(); ++i) {
     const RelativePose& z = held_out.loops.at(held_out.tested[i]);
-    const auto nis = innovation_squared(z, held_out.estimate[z.from], held_out.estimate[z.to],
-                                        held_out.covariances[i]);
+    const auto nis = innovation_squared(z.alone(), held_out.estimate[z.from],
+                                        held_out.estimate[z.to], held_out.covariances[i]);
     if (!nis) return std::nullopt;
     sum += *nis;
   }

@@ -125,8 +125,8 @@ std::string step_remark(const MapFit& fit) {
 }
 
 std::string misfit_remark(const MapFit& fit, bool set_up_is_wrong) {
-  const double of_steps = fit.steps_at_optimum / fit.chi2_alone;
-  const double of_absolute = fit.absolute_at_optimum / fit.chi2_alone;
+  const double of_steps = fit.steps_at_optimum / fit.alone_at_optimum();
+  const double of_absolute = fit.absolute_at_optimum / fit.alone_at_optimum();
   const std::string text = "the measurements do not fit each other: F per degree of freedom is " +
                            short_number(fit.per_degree_of_freedom()) +
                            " at its best, and 1 is expected; ";

@@ -151,13 +151,11 @@ class Scanner {
     if (words.empty()) return;
     if (words[0] == "inliers" && words.size() == 2) {
       const std::int64_t count = parse_integer(words[1]).value_or(-1);
-      if (count >= 0 && count < 1'000'000'000) pending_inliers_ = static_cast<int>(count);
+      if (count >= 0 && count < 1'000'000'000) told_.inliers = static_cast<int>(count);
     } else if (words[0] == "repeats" && words.size() == 2) {
-      const double repeats = parse_real(words[1]).value_or(1.0);
-      if (repeats >= 1.0 && repeats < 1e9) pending_repeats_ = repeats;
+      told_.repeats = parse_real(words[1]).value_or(1.0);
     } else if (words[0] == "hole") {
-      if (const auto hole = hole_of(words))
-        file_.holes.emplace(std::pair(hole->from, hole->to), *hole);
+      if (const auto hole = hole_of(words)) file_.holes.try_emplace({hole->from, hole->to}, *hole);
     } else if (words[0] == "start") {
       pending_start_ = start_covariance_of(words);
     }
@@ -174,9 +172,7 @@ class Scanner {
 
   void read_edge(const Fields& fields, GraphFormat order) {
     expect_fields(fields, 12, "i j x y theta and six information values");
-    G2oFile::Edge edge;
-    edge.inliers = std::exchange(pending_inliers_, std::nullopt);
-    edge.repeats = std::exchange(pending_repeats_, 1.0);
+    G2oFile::Edge edge = std::exchange(told_, {});
     edge.from = integer(fields[1]);
     edge.to = integer(fields[2]);
     edge.motion = read_pose(fields, 3);
@@ -237,8 +233,7 @@ class Scanner {
   EdgeInformation information_;
   TagCounts landmarks_;
   std::size_t first_landmark_ = 0;  ///< line; 0: none
-  std::optional<int> pending_inliers_;
-  double pending_repeats_ = 1.0;
+  G2oFile::Edge told_;              // what comments above the next edge say of it
   std::optional<Eigen::Matrix3d> pending_start_;
 };
 

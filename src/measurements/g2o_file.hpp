@@ -26,9 +26,9 @@ struct G2oFile {
     std::int64_t from = 0;
     std::int64_t to = 0;
     Pose motion;
-    Eigen::Matrix3d information;
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     std::optional<int> inliers;
-    double repeats = 1.0;
+    double repeats = 1.0;                        ///< as told
     std::shared_ptr<const SharedErrors> shared;  ///< of a file beside it
     std::size_t line = 0;
   };

@@ -58,12 +58,15 @@ std::string words(const FewSurveys& found) {
 }
 
 std::string words(const BaselineAsGood& found) {
-  return "The best is not shown to be better than dead reckoning, whose difference to it is " +
+  return std::string(found.is_worse ? "The best is worse than dead reckoning"
+                                    : "The best is not shown to be better than dead reckoning") +
+         ", whose difference to it is " +
          quantity(found.difference.mean, found.difference.interval, described(found.metric).unit) +
          ".";
 }
-std::string general(const BaselineAsGood&) {
-  return "the best is not shown to be better than dead reckoning";
+std::string general(const BaselineAsGood& found) {
+  return found.is_worse ? "the best is worse than dead reckoning"
+                        : "the best is not shown to be better than dead reckoning";
 }
 
 // One for all of them, or that of each by its name.
@@ -91,14 +94,27 @@ std::string general(const WrongConfidence& found) {
 }
 
 std::string words(const Correlation& found) {
-  return "Registrations of one picture share errors (correlation " +
-         quantity(found.correlation.moments.mean, found.correlation.interval, "") + "), which " +
-         listed(found.estimators) + (found.estimators.size() == 1 ? " does" : " do") +
-         " not estimate" +
-         (found.is_told ? "; shared_errors: states estimates them, of those that have it." : ".");
+  const auto figure = [](const MetricSummary& summary) {
+    return " (correlation " + quantity(summary.moments.mean, summary.interval, "") + ")";
+  };
+  std::string text;
+  if (!found.estimators.empty()) {
+    text = "Registrations of one picture share errors" + figure(found.correlation) + ", which " +
+           listed(found.estimators) + (found.estimators.size() == 1 ? " does" : " do") +
+           " not estimate" +
+           (found.is_told ? "; shared_errors: states estimates them, of those that have it." : ".");
+  }
+  if (!found.beyond.empty()) {
+    text += std::string(text.empty() ? "" : " ") + "Registrations of one picture share more than " +
+            listed(found.beyond) + (found.beyond.size() == 1 ? " estimates" : " estimate") +
+            figure(found.left) + ".";
+  }
+  return text;
 }
-std::string general(const Correlation&) {
-  return "registrations of one picture share errors that are not estimated";
+std::string general(const Correlation& found) {
+  return found.estimators.empty()
+             ? "registrations of one picture share more than estimators estimate"
+             : "registrations of one picture share errors that are not estimated";
 }
 
 std::string words(const OffTheOptimum& found) {

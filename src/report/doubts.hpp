@@ -46,6 +46,7 @@ struct FewSurveys {
 struct BaselineAsGood {
   PairedDifference difference;  ///< dead reckoning minus the best
   std::string metric;
+  bool is_worse = false;  ///< the best is shown to be worse
 };
 struct WrongConfidence {
   bool is_overconfident = true;
@@ -55,8 +56,10 @@ struct WrongConfidence {
 /// Registrations of one picture share errors.
 struct Correlation {
   MetricSummary correlation;
-  std::vector<std::string> estimators;  ///< that do not estimate them
-  bool is_told = false;                 ///< whether they could estimate them
+  std::vector<std::string> estimators;   ///< that do not estimate them
+  bool is_told = false;                  ///< whether they could estimate them
+  MetricSummary left = {};               ///< less what is estimated of it
+  std::vector<std::string> beyond = {};  ///< that estimate errors of pictures, and leave so much
 };
 /// F lies above the optimum of the measurements.
 struct OffTheOptimum {

@@ -30,12 +30,22 @@ std::vector<Entry> series_or_none(const ResultStore& store, const RunKey& key,
   return series_of(store, key, series).value_or(std::vector<Entry>{});
 }
 
+// Whether errors and covariances are of one gauge: with keyframe 0 held neither has any there, with
+// an uncertain start and unaligned errors both have. Aligned by all poses, or at the origin with an
+// uncertain start, they are of two, and not to be compared.
+bool are_of_one_gauge(const std::vector<double>& errors, double first_trace) {
+  constexpr double kNone_m = 1e-9;
+  if (errors.empty() || !std::isfinite(errors[0])) return true;
+  return (errors[0] < kNone_m) == (first_trace < kNone_m * kNone_m);
+}
+
 void add_run(const ResultStore& store, const RunKey& key, std::vector<Sums>& sums) {
   const auto errors = series_or_none(store, key, series::position_error_m);
   const auto xx = series_or_none(store, key, series::cov_xx);
   const auto yy = series_or_none(store, key, series::cov_yy);
   const auto nees = series_or_none(store, key, series::pose_nees);
-  const std::size_t covariances = std::min(xx.size(), yy.size());
+  std::size_t covariances = std::min(xx.size(), yy.size());
+  if (covariances > 0 && !are_of_one_gauge(errors, xx[0] + yy[0])) covariances = 0;
   // NEES is known from keyframe 1 on.
   sums.resize(
       std::max({sums.size(), errors.size(), covariances, nees.empty() ? 0 : nees.size() + 1}));

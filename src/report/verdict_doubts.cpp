@@ -42,20 +42,28 @@ std::optional<Doubt> wrong_confidence(const CellResults& cell, bool is_overconfi
 
 // Where it has not been named as a cause. It is a figure of the registrations, less what an
 // estimator estimates of it, so that of one that takes them as independent stands for all those.
+// Trials of one survey share its registrations: an interval over them says nothing.
 std::optional<Doubt> correlation(const CellResults& cell) {
-  if (std::ranges::any_of(cell.estimators, [](const auto& one) { return one.honesty.has_value(); }))
-    return std::nullopt;
+  if (cell.repetition != Repetition::logs && cell.surveys < 2) return std::nullopt;
   doubt::Correlation doubt;
   for (const EstimatorResults& one : cell.estimators) {
+    if (one.honesty && one.honesty->cause == HonestyCause::shared_errors) continue;
     const auto found = one.consistency.find("picture_error_correlation");
     if (found == one.consistency.end()) continue;
     const auto& interval = found->second.interval;
     if (!interval || !(interval->low > 0.0)) continue;
+    const auto states = one.consistency.find("estimates_shared_errors");
+    const bool is_told = states != one.consistency.end();
+    if (is_told && states->second.moments.mean == 1.0) {
+      if (doubt.beyond.empty()) doubt.left = found->second;
+      doubt.beyond.push_back(one.name);
+      continue;
+    }
     if (doubt.estimators.empty()) doubt.correlation = found->second;
     doubt.estimators.push_back(one.name);
-    doubt.is_told = one.consistency.contains("estimates_shared_errors");
+    doubt.is_told = is_told;
   }
-  if (doubt.estimators.empty()) return std::nullopt;
+  if (doubt.estimators.empty() && doubt.beyond.empty()) return std::nullopt;
   return doubt;
 }
 
@@ -151,7 +159,9 @@ std::optional<Doubt> baseline_as_good(const CellResults& cell, const Ranking& ra
   if (is_lower ? difference->interval->low > 0.0 : difference->interval->high < 0.0) {
     return std::nullopt;
   }
-  return doubt::BaselineAsGood{*difference, ranking.metric};
+  const bool is_worse =
+      is_lower ? difference->interval->high < 0.0 : difference->interval->low > 0.0;
+  return doubt::BaselineAsGood{*difference, ranking.metric, is_worse};
 }
 
 }  // namespace

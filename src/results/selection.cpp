@@ -81,6 +81,9 @@ std::vector<std::vector<TrialKey>> share_trials(Selection& selection, const Comp
   for (EstimatorEvidence* one : candidates) {
     one->objective = mean_over(compared, one->name, objective, trials);
   }
+  if (selection.baseline && selection.baseline->objective) {
+    selection.baseline->objective = mean_over(compared, kDeadReckoning, objective, trials);
+  }
   return trials;
 }
 

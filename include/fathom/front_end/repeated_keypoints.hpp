@@ -14,7 +14,7 @@ namespace fathom {
 /// A keypoint is measured once in its picture, with an error that all its matches share. Of N
 /// pictures of the same keypoints the N (N − 1) / 2 registrations tell no more than N − 1 of them,
 /// and as independent ones they would be N / 2 = (1 + m) / 2 times too certain
-/// (docs/registration.md#keypoints-of-several-registrations).
+/// (docs/registration.md).
 ///
 /// Keypoints are taken to lie all over what two pictures have in common, by the registered motion,
 /// and to be matched in another registration as often as its inliers are dense, against the densest

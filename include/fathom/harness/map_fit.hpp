@@ -37,8 +37,8 @@ struct MapFit {
   double absolute_left_out = 0.0;        ///< of the rest, what is of absolute measurements
   double chi2_optimum = 0.0;             ///< F of the batch optimum
   /// The same with registrations' covariances as they are of each alone (RelativePose::alone), as
-  /// are all parts of it below.
-  double chi2_alone = 0.0;
+  /// are all parts of it below; absent: the same.
+  std::optional<double> chi2_alone = {};
   double steps_at_optimum = 0.0;     ///< the part of it that is of dead reckoning
   double absolute_at_optimum = 0.0;  ///< the part that is of absolute measurements
   double degrees_of_freedom = 0.0;   ///< of the optimum (degrees_of_freedom)
@@ -56,7 +56,8 @@ struct MapFit {
   double registration_sigma_rad = 0.0;
 
   /// F per degree of freedom at the optimum: 1 is expected of right loops and covariances.
-  double per_degree_of_freedom() const { return chi2_alone / degrees_of_freedom; }
+  double per_degree_of_freedom() const { return alone_at_optimum() / degrees_of_freedom; }
+  double alone_at_optimum() const { return chi2_alone.value_or(chi2_optimum); }
 
   /// Whether F of the estimate lies above its optimum by no more than 99 of 100 draws from the
   /// posterior would: F − F* is χ² with as many degrees of freedom as there are unknowns. Where F
