@@ -162,6 +162,17 @@ TEST(G2oRead, InliersStandAboveTheirEdge) {
   EXPECT_FALSE(log.arrival(1).registrations[1].inliers);
 }
 
+TEST(G2oRead, WhatAnOwnCovarianceStandsForIsAboveItsEdge) {
+  const std::string edge = "EDGE_SE2 0 1 1 0 0" + kInformation + "\n";
+  const MeasurementLog log = parse(edge + "# repeats 3.5\n# inliers 42\n" + edge +
+                                   "# repeats 0.2\n" + edge + "# repeats much\n" + edge);
+  EXPECT_EQ(log.arrival(1).registrations[0].repeats, 3.5);
+  EXPECT_EQ(log.arrival(1).registrations[0].inliers, 42);
+  EXPECT_EQ(log.arrival(1).registrations[1].repeats, 1.0);
+  EXPECT_EQ(log.arrival(1).registrations[2].repeats, 1.0);
+  EXPECT_EQ(parse(to_g2o(log)).arrival(1).registrations[0].repeats, 3.5);
+}
+
 void expect_same_bits(const RelativePose& a, const RelativePose& b) {
   EXPECT_EQ(a.from, b.from);
   EXPECT_EQ(a.to, b.to);
