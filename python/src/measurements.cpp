@@ -102,6 +102,11 @@ void bind_relative(py::module_& module) {
       .def_property_readonly(
           "covariance", [](const RelativePose& z) { return array_of(z.covariance()); },
           "3 x 3 of nu = z - h(x), in the frame of `from_`.")
+      .def_readonly("repeats", &RelativePose::repeats,
+                    "Its own covariance stands so many times for what it is alone, as other "
+                    "registrations have keypoints in common with it.")
+      .def("alone", &RelativePose::alone,
+           "With the covariance that it has alone: what its error is judged by.")
       .def_property_readonly(
           "shared",
           [](const RelativePose& z) {

@@ -28,12 +28,14 @@ class Pictures {
   Pictures(const Camera& camera, std::span<const Stance> stances)
       : camera_(camera), stances_(stances), ends_(stances.size()) {
     const CameraModel& model = camera.model();
+    std::vector<Eigen::Vector2d> pixels;
     for (int row = 0; row < kDown; ++row) {
       for (int column = 0; column < kAcross; ++column) {
-        samples_.emplace_back((column + 0.5) / kAcross * model.width - 0.5,
-                              (row + 0.5) / kDown * model.height - 0.5);
+        pixels.emplace_back((column + 0.5) / kAcross * model.width - 0.5,
+                            (row + 0.5) / kDown * model.height - 0.5);
       }
     }
+    for (const Stance& stance : stances) samples_.push_back(camera.floor_points(pixels, stance));
   }
 
   void add(const RelativePose& z, std::size_t registration) {
@@ -45,10 +47,14 @@ class Pictures {
   /// its pictures half each.
   void count(std::size_t picture, std::vector<double>& registrations) const {
     const std::vector<End>& ends = ends_[picture];
+    // Of a sliver in common the density is no number to go by.
+    constexpr std::size_t kFewest = kSamples / 10;
     double densest = 0.0;
-    for (const End& end : ends) densest = std::max(densest, end.density);
+    for (const End& end : ends) {
+      if (end.common() >= kFewest) densest = std::max(densest, end.density);
+    }
     const auto share_of = [densest](const End& end) {
-      return densest > 0.0 ? end.density / densest : 1.0;
+      return densest > 0.0 ? std::min(1.0, end.density / densest) : 1.0;
     };
     std::vector<double> matched(kSamples, 0.0);
     for (const End& end : ends) {
@@ -77,12 +83,10 @@ class Pictures {
     end.registration = registration;
     const CameraModel& model = camera_.model();
     const double reach_m = reach(other);
-    const Eigen::Vector2d mount(model.mount_x_m, model.mount_y_m);
-    const std::vector<Eigen::Vector2d> points = camera_.floor_points(samples_, stances_[picture]);
     for (std::size_t s = 0; s < kSamples; ++s) {
-      const Eigen::Vector2d there = transform(seen_from, points[s]);
-      // Further off the distortion may bring a point back in.
-      if (!((there - mount).norm() <= reach_m)) continue;
+      const Eigen::Vector2d there = transform(seen_from, samples_[picture][s]);
+      // Further off the distortion may bring a point back in. NaN is above the horizon.
+      if (!((there - mount()).norm() <= reach_m)) continue;
       const Eigen::Vector2d pixel = camera_.pixel(there, stances_[other]);
       end.is_common[s] = pixel.x() >= -0.5 && pixel.x() <= model.width - 0.5 && pixel.y() >= -0.5 &&
                          pixel.y() <= model.height - 0.5;
@@ -94,20 +98,23 @@ class Pictures {
     return end;
   }
 
-  // From the camera to the furthest corner of what the picture covers.
+  Eigen::Vector2d mount() const { return {camera_.model().mount_x_m, camera_.model().mount_y_m}; }
+
+  // From the camera to beyond what the picture covers, by less than a cell of the grid.
   double reach(std::size_t picture) const {
-    const Eigen::Vector2d mount(camera_.model().mount_x_m, camera_.model().mount_y_m);
+    constexpr double kBeyond = 1.1;
     double reach_m = 0.0;
-    for (const Eigen::Vector2d& corner : camera_.footprint(stances_[picture])) {
-      reach_m = std::max(reach_m, (corner - mount).norm());
+    for (const Eigen::Vector2d& point : samples_[picture]) {
+      const double distance_m = (point - mount()).norm();
+      if (distance_m > reach_m) reach_m = distance_m;
     }
-    return reach_m;
+    return kBeyond * reach_m;
   }
 
   const Camera& camera_;
   std::span<const Stance> stances_;
-  std::vector<Eigen::Vector2d> samples_;
-  std::vector<std::vector<End>> ends_;  // by picture
+  std::vector<std::vector<Eigen::Vector2d>> samples_;  // by picture, on the floor
+  std::vector<std::vector<End>> ends_;                 // by picture
 };
 
 }  // namespace

@@ -105,7 +105,8 @@ std::vector<SeenMotion> motions_of(const Recording& recording, const FrameSource
   std::vector<SeenMotion> motions;
   const auto add = [&](const RelativePose& z) {
     motions.push_back(seen_motion(frames, recording.keyframe_frames[z.from],
-                                  recording.keyframe_frames[z.to], {z.motion, z.covariance()}));
+                                  recording.keyframe_frames[z.to],
+                                  {z.motion, z.alone().covariance()}));
   };
   for (std::size_t k = 1; k < recording.log.size(); ++k) {
     const KeyframeMeasurements& arrival = recording.log.arrival(k);

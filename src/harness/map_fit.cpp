@@ -68,6 +68,7 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
   fit.chi2_alone = chi2_alone(log, optimum.poses, optimum.errors);
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   Eigen::Vector3d variances = Eigen::Vector3d::Zero();
+  double repeats = 0.0;
   std::vector<double> of_steps;
   std::vector<double> of_registrations;
   for (std::size_t k = 1; k < log.size(); ++k) {
@@ -77,6 +78,7 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
     if (!step.is_hole) of_steps.push_back(e.dot(step.information * e));
     for (const RelativePose& told : log.arrival(k).registrations) {
       const RelativePose z = told.alone();
+      repeats += told.repeats;
       const Eigen::Vector3d off = residual(z.motion, optimum.poses[z.from], optimum.poses[z.to]);
       of_registrations.push_back(off.dot(z.information * off));
       squares += off.cwiseAbs2();
@@ -91,6 +93,7 @@ std::optional<MapFit> map_fit(const MeasurementLog& log, std::span<const Pose> e
   fit.registration_rms_rad = std::sqrt(squares.z() / count);
   fit.registration_sigma_m = std::sqrt((variances.x() + variances.y()) / count);
   fit.registration_sigma_rad = std::sqrt(variances.z() / count);
+  fit.mean_repeats = repeats / count;
   fit.absolute_at_optimum = absolute_chi2(log, optimum.poses);
   fit.unknowns = determined_unknowns(log);
   return fit;
@@ -212,7 +215,11 @@ std::vector<std::string> map_remarks(const MapFit& fit, const std::string& estim
 
 std::optional<std::string> sharing_remark(const MapFit& fit, const std::string& estimator) {
   constexpr double kTooLittle = 0.6;
-  if (fit.per_degree_of_freedom() > kTooLittle) return std::nullopt;
+  // Where keypoints count once, errors that cancel around loops are allowed for.
+  constexpr double kAllowedFor = 1.5;
+  if (fit.per_degree_of_freedom() > kTooLittle || fit.mean_repeats > kAllowedFor) {
+    return std::nullopt;
+  }
   return "F per degree of freedom is " + short_number(fit.per_degree_of_freedom()) +
          " at its best, and 1 is expected: registrations of a picture share errors, which " +
          estimator +

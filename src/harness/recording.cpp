@@ -141,9 +141,16 @@ bool have_intervals(const std::vector<FoundSigma>& found) {
   return std::ranges::none_of(found, [](const FoundSigma& one) { return std::isnan(one.low); });
 }
 
+// By one solver, whatever others there are: the log must not depend on them.
 void adjust_responses(Recording& recording, const EstimatorRegistry& registry) {
+  constexpr const char* kSolver = "sparse_gauss_newton";
   if (!recording.log.tells_shared_errors()) return;
-  const auto optimum = batch_optimum(recording.log, registry, {}, RegistrationErrors::shared);
+  const std::vector<EstimatorEntry>& entries = registry.entries();
+  const auto entry = std::ranges::find(entries, kSolver, &EstimatorEntry::name);
+  if (entry == entries.end()) return;
+  EstimatorRegistry solver;
+  solver.add(*entry);
+  const auto optimum = batch_optimum(recording.log, solver, {}, RegistrationErrors::shared);
   if (!optimum) return;
   std::vector<double> altitudes_m;
   for (const Stance& stance : recording.keyframe_stances) altitudes_m.push_back(stance.altitude_m);

@@ -26,7 +26,7 @@ RelativePose measurement(const G2oFile::Edge& edge, const KeyframeOf& keyframe_o
   z.motion = edge.motion;
   z.information = edge.information;
   z.inliers = edge.inliers;
-  z.repeats = std::clamp(edge.repeats, 1.0, 1e9);
+  if (!edge.repeats_own || edge.shared) z.repeats = std::clamp(edge.repeats, 1.0, 1e9);
   return z;
 }
 

@@ -141,9 +141,8 @@ class Scanner {
 
   void read_fixed(const Fields& fields) {
     if (fields.size() == 1) fail("FIX without an id");
-    for (std::size_t i = 1; i < fields.size(); ++i) {
+    for (std::size_t i = 1; i < fields.size(); ++i)
       file_.fixed.push_back({integer(fields[i]), file_.lines});
-    }
   }
 
   // What to_g2o writes in comments; any other comment is just that.
@@ -152,8 +151,9 @@ class Scanner {
     if (words[0] == "inliers" && words.size() == 2) {
       const std::int64_t count = parse_integer(words[1]).value_or(-1);
       if (count >= 0 && count < 1'000'000'000) told_.inliers = static_cast<int>(count);
-    } else if (words[0] == "repeats" && words.size() == 2) {
+    } else if (words[0] == "repeats" && words.size() > 1) {
       told_.repeats = parse_real(words[1]).value_or(1.0);
+      told_.repeats_own = words.size() > 2;
     } else if (words[0] == "hole") {
       if (const auto hole = hole_of(words)) file_.holes.try_emplace({hole->from, hole->to}, *hole);
     } else if (words[0] == "start") {

@@ -29,6 +29,7 @@ struct G2oFile {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     std::optional<int> inliers;
     double repeats = 1.0;                        ///< as told
+    bool repeats_own = false;                    ///< of its own part in `shared` alone
     std::shared_ptr<const SharedErrors> shared;  ///< of a file beside it
     std::size_t line = 0;
   };

@@ -28,7 +28,10 @@ std::string vertex_line(std::int64_t id, const Pose& pose) {
 std::string edge_line(const RelativePose& z, const std::vector<std::int64_t>& ids) {
   std::string line;
   if (z.inliers) line += "# inliers " + std::to_string(*z.inliers) + '\n';
-  if (z.repeats != 1.0) line += "# repeats " + exact(z.repeats) + '\n';
+  if (z.repeats != 1.0) {
+    // Of the part that is its own, which a file beside it tells, or of all.
+    line += "# repeats " + exact(z.repeats) + (z.shared ? " own" : "") + '\n';
+  }
   line += z.is_hole ? "# hole " : "EDGE_SE2 ";
   line += std::to_string(ids[z.from]) + ' ' + std::to_string(ids[z.to]);
   return line + pose_text(z.motion) + upper_triangle(z.information) + '\n';

@@ -153,7 +153,7 @@ std::optional<InformationScale> information_scale(const MeasurementLog& log,
     scale.squared += weighted.squaredNorm() / degrees;
   };
   for (const RelativePose& z : log.edges()) {
-    add(residual(z.motion, optimum[z.from], optimum[z.to]), z.information);
+    add(residual(z.motion, optimum[z.from], optimum[z.to]), z.alone().information);
   }
   const AbsolutePose start = log.start().measurement();
   if (!log.start().is_fixed()) add(residual(start, optimum[0]), start.information);

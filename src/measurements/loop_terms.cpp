@@ -24,7 +24,7 @@ LoopClosure closure_of(const RelativePose& z, const KnownWay& way) {
   LoopClosure closure{z.from, z.to, way.length_m};
   closure.misfit = z.motion.vector() - way.motion.mean.vector();
   closure.misfit.z() = wrap_angle(closure.misfit.z());
-  const Eigen::Matrix3d own = z.covariance();
+  const Eigen::Matrix3d own = z.alone().covariance();
   closure.covariance = way.motion.covariance + own;
   closure.own_sigma_m = worst_sigma_m(own);
   return closure;

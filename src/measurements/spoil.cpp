@@ -90,7 +90,8 @@ class Spoiler {
     }
     z.from = std::min(a, b);
     z.to = std::max(a, b);
-    z.shared = nullptr;  // other pictures' errors
+    z.shared = nullptr;  // other pictures' errors, and keypoints
+    z.repeats = 1.0;
     return z;
   }
 
@@ -100,6 +101,7 @@ class Spoiler {
     z.from = first.from + steps;
     z.to = first.to + steps;
     z.shared = nullptr;
+    z.repeats = 1.0;
     const Pose back = between(reference_[z.from], reference_[first.from]);
     const Pose on = between(reference_[first.to], reference_[z.to]);
     const Eigen::LLT<Eigen::Matrix3d> information(z.information);

@@ -1,7 +1,6 @@
 #include "honesty.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "fathom/core/chi_squared.hpp"
@@ -127,14 +126,7 @@ std::optional<double> optimum_per_degree(const std::map<std::string, MetricSumma
   const auto optimum = figures.find("chi2_optimum");
   const double degrees = degrees_of_freedom(figures);
   if (optimum == figures.end() || !(degrees > 0.0)) return std::nullopt;
-  const double joint = optimum->second.moments.mean / degrees;
-  // With the covariance that registrations have alone, as chi2_per_dof is at the estimate.
-  const auto gap = figures.find("chi2_gap");
-  const auto at_estimate = figures.find("chi2_per_dof");
-  if (gap == figures.end() || at_estimate == figures.end()) return joint;
-  const double estimate = optimum->second.moments.mean + gap->second.moments.mean;
-  const double alone = at_estimate->second.moments.mean * optimum->second.moments.mean / estimate;
-  return std::isfinite(alone) ? alone : joint;
+  return optimum->second.moments.mean / degrees;
 }
 
 std::optional<double> optimum_per_degree(const CellResults& cell) {

@@ -39,8 +39,7 @@ struct Honesty {
 /// Whether honesty_of looks at a metric.
 bool is_of_honesty(const std::string& metric);
 
-/// F per degree of freedom at the optimum, of the log alone and with the covariance that each
-/// registration has alone; nothing where it is not known.
+/// F per degree of freedom at the optimum, of the log alone; nothing where it is not known.
 std::optional<double> optimum_per_degree(const std::map<std::string, MetricSummary>& figures);
 
 /// The least of its estimators: one that estimates what registrations share has an F of its own.

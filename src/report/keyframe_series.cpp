@@ -34,7 +34,7 @@ std::vector<Entry> series_or_none(const ResultStore& store, const RunKey& key,
 // an uncertain start and unaligned errors both have. Aligned by all poses, or at the origin with an
 // uncertain start, they are of two, and not to be compared.
 bool are_of_one_gauge(const std::vector<double>& errors, double first_trace) {
-  constexpr double kNone_m = 1e-9;
+  constexpr double kNone_m = 1e-6;  // beyond the rounding of a country's coordinates
   if (errors.empty() || !std::isfinite(errors[0])) return true;
   return (errors[0] < kNone_m) == (first_trace < kNone_m * kNone_m);
 }

@@ -55,6 +55,8 @@ std::optional<Doubt> correlation(const CellResults& cell) {
     const auto states = one.consistency.find("estimates_shared_errors");
     const bool is_told = states != one.consistency.end();
     if (is_told && states->second.moments.mean == 1.0) {
+      // What of it is of keypoints is allowed for: no matter where it is not overconfident.
+      if (!one.honesty || !one.honesty->is_overconfident) continue;
       if (doubt.beyond.empty()) doubt.left = found->second;
       doubt.beyond.push_back(one.name);
       continue;

@@ -70,6 +70,9 @@ std::vector<std::vector<TrialKey>> share_trials(Selection& selection, const Comp
     out->shares_nothing_in = compared.cells[c];
     std::erase(candidates, out);
   }
+  if (selection.baseline && selection.baseline->objective) {
+    selection.baseline->objective = mean_over(compared, kDeadReckoning, objective, trials);
+  }
   if (candidates.size() < 2) return trials;
   selection.fewest_shared = trials.front().size();
   for (std::size_t c = 0; c < trials.size(); ++c) {
@@ -80,9 +83,6 @@ std::vector<std::vector<TrialKey>> share_trials(Selection& selection, const Comp
   }
   for (EstimatorEvidence* one : candidates) {
     one->objective = mean_over(compared, one->name, objective, trials);
-  }
-  if (selection.baseline && selection.baseline->objective) {
-    selection.baseline->objective = mean_over(compared, kDeadReckoning, objective, trials);
   }
   return trials;
 }

@@ -141,6 +141,7 @@ std::vector<std::string> solve_remarks(const SolveOutcome& done,
   if (!fit) return remarks;
   MapFit least = *fit;
   least.chi2_optimum = 0.0;
+  least.chi2_alone = 0.0;
   const bool may_be_off = result.mode == SolveMode::incremental && !least.estimate_fits();
   if (!fit->measurements_disagree() && !may_be_off) return remarks;
   if (log.size() <= kMostKeyframes) {

@@ -135,6 +135,7 @@ TEST(Calibration, NamesGroundTruthThatHasNoHeadings) {
 TEST(Calibration, GroundTruthTellsMirroredOdometryFromAReverseOrder) {
   TurningSurvey survey;
   survey.even_about_s = 37.25;
+  survey.speed_change = 0.0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     CalibrationInput input = survey.input(seed);
     for (ReckonedRow& row : input.odometry.rows) {
@@ -154,6 +155,7 @@ TEST(Calibration, GroundTruthTellsMirroredOdometryFromAReverseOrder) {
 TEST(Calibration, GroundTruthTellsMirroredPicturesFromAReverseOrder) {
   TurningSurvey survey;
   survey.even_about_s = 37.25;
+  survey.speed_change = 0.0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     CalibrationInput input = survey.input(seed);
     mirror_pictures(input);

@@ -88,6 +88,14 @@ TEST(RepeatedKeypoints, CountByTheDensityOfMatches) {
   EXPECT_NEAR(found[1], 0.5 * (1.0 + 0.5 * (1.0 + 2.0)), 1e-12);
 }
 
+// Forty matches in a strip of 10 cm are denser than any number over a whole picture.
+TEST(RepeatedKeypoints, AreNotCountedByASliver) {
+  const std::vector<Loop> loops{{0, 1, 200}, {0, 2, 200}, {1, 2, 200}, {2, 3, 40}};
+  const std::vector<double> found = repeats({{}, {}, {}, {2.4, 0.0, 0.0}}, loops);
+  EXPECT_NEAR(found[0], 1.5, 1e-12);
+  EXPECT_GT(found[1], 1.5 - 1e-12);
+}
+
 TEST(RepeatedKeypoints, MakeTheOwnCovarianceLargerAndNoOther) {
   SharedErrors shared;
   shared.from.sigma[0] = shared.to.sigma[1] = 0.02;

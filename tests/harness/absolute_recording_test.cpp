@@ -105,9 +105,7 @@ TEST(AbsoluteRecording, AKeyframesOwnReadingsComeBeforeItsCandidates) {
       configured(std::string(kSmallSurvey) + kSensors + test::kStatedSigmas);
   test::Script script;
   EstimatorRegistry registry;
-  EstimatorEntry entry = test::scripted(script);
-  entry.can_batch = false;  // the recording asks batch solvers for its optimum
-  registry.add(entry);
+  registry.add(test::scripted(script));
   const CandidateReference reference{
       CandidateReference::Kind::estimate, {"scripted", "scripted", {}}, true};
   const Recording recording =

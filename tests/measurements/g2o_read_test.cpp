@@ -165,7 +165,7 @@ TEST(G2oRead, InliersStandAboveTheirEdge) {
 TEST(G2oRead, WhatAnOwnCovarianceStandsForIsAboveItsEdge) {
   const std::string edge = "EDGE_SE2 0 1 1 0 0" + kInformation + "\n";
   const MeasurementLog log = parse(edge + "# repeats 3.5\n# inliers 42\n" + edge +
-                                   "# repeats 0.2\n" + edge + "# repeats much\n" + edge);
+                                   "# repeats 0.2\n" + edge + "# repeats 3.5 own\n" + edge);
   EXPECT_EQ(log.arrival(1).registrations[0].repeats, 3.5);
   EXPECT_EQ(log.arrival(1).registrations[0].inliers, 42);
   EXPECT_EQ(log.arrival(1).registrations[1].repeats, 1.0);

@@ -39,6 +39,7 @@ struct MapFit {
   /// The same with registrations' covariances as they are of each alone (RelativePose::alone), as
   /// are all parts of it below; absent: the same.
   std::optional<double> chi2_alone = {};
+  double mean_repeats = 1.0;         ///< RelativePose::repeats of registrations
   double steps_at_optimum = 0.0;     ///< the part of it that is of dead reckoning
   double absolute_at_optimum = 0.0;  ///< the part that is of absolute measurements
   double degrees_of_freedom = 0.0;   ///< of the optimum (degrees_of_freedom)

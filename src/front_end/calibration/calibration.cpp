@@ -51,6 +51,11 @@ std::string unrelated_text(const SetUp& found) {
       found.motions);
 }
 
+bool are_altitudes_plausible(const CalibrationInput& input) {
+  const auto plausible = plausible_altitudes(input.frame_times_ns, input.altitudes_m);
+  return std::ranges::count(plausible, false) == 0;
+}
+
 }  // namespace
 
 Calibration calibrate(const CalibrationInput& input) {
@@ -64,10 +69,7 @@ Calibration calibrate(const CalibrationInput& input) {
   if (find_still_odometry(input, calibration.findings)) return calibration;
   if (!input.is_visual_odometry) calibration.set_up = find_set_up(input);
   std::optional<SetUp>& found = calibration.set_up;
-  if (found) {
-    const auto plausible = plausible_altitudes(input.frame_times_ns, input.altitudes_m);
-    found->is_clock_told = std::ranges::count(plausible, false) == 0;
-  }
+  if (found) found->is_clock_told = are_altitudes_plausible(input);
   if (found && !found->is_related) {
     calibration.findings.push_back(unrelated_text(*found));
     return calibration;

@@ -103,13 +103,14 @@ bool turns_against_truth(const CalibrationInput& input, const OdometryFormat& fo
 
 // Whether ground truth turns the other way than dead reckoning read so. Nothing else tells a survey
 // in reverse order from one whose headings count the other way, where its way is even. The mirror
-// image of what is configured stands for mirrored pictures, of which ground truth does not know.
+// image of what is configured stands for mirrored pictures, too: ground truth does not know these.
 bool contradicts_truth(const CalibrationInput& input, const Reading& reading) {
   const OdometryFormat& configured = input.odometry.format;
   const bool is_of_mirrored_pictures = !reading.is_reversed &&
                                        reading.format.is_in_degrees == configured.is_in_degrees &&
                                        reading.format.convention == mirrored(configured.convention);
-  return turns_against_truth(input, is_of_mirrored_pictures ? configured : reading.format);
+  return turns_against_truth(input, reading.format) &&
+         (!is_of_mirrored_pictures || turns_against_truth(input, configured));
 }
 
 struct FittedReading {

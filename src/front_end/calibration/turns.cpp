@@ -109,6 +109,7 @@ std::vector<PositionFix> positions_of(const std::vector<StampedPose>& truth) {
   }
   const double sigma_m = path_m / kWays / kFarSigmas;
   std::vector<PositionFix> fixes;
+  fixes.reserve(truth.size());
   for (const StampedPose& pose : truth) {
     fixes.push_back(
         {pose.time_ns, pose.pose.position(), sigma_m * sigma_m * Eigen::Matrix2d::Identity()});
