@@ -140,6 +140,7 @@ TEST_F(Select, BadInputIsRefusedWithWhatWouldBeRight) {
       {{"select", "study", "--require", "total_ms=3"},
        "for example 'mean_position_error_m <= 0.1'"},
       {{"select", "study", "--minimise", "totl_ms"}, "did you mean 'total_ms'?"},
+      {{"select", "study", "--minimise", "anees"}, "neither more nor less of 'anees' is better"},
       {{"select", "study", "--minimise", "total_ms", "--maximise", "total_ms"}, "excludes"},
       {{"select", "study", "--where", "altimetre=0"}, "did you mean 'altimeter'?"},
       {{"select", "study", "--where", "altimeter=7"}, "altimeter is never '7'; there are 0, 0.01"},

@@ -7,22 +7,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "front_end/estimate.hpp"
+
 namespace fathom {
 namespace {
 
 using ::testing::DoubleNear;
 using ::testing::Each;
-
-// A level camera that sees 2.5 m ahead and 2 m across from 2 m.
-Camera camera() {
-  CameraModel model;
-  model.width = 200;
-  model.height = 250;
-  model.fx = model.fy = 200.0;
-  model.cx = 99.5;
-  model.cy = 124.5;
-  return Camera(model);
-}
 
 struct Loop {
   std::size_t from = 0;
@@ -48,8 +39,9 @@ MeasurementLog log_of(const std::vector<Pose>& poses, const std::vector<Loop>& l
 }
 
 std::vector<double> repeats(const std::vector<Pose>& poses, const std::vector<Loop>& loops) {
-  const std::vector<Stance> stances(poses.size(), Stance(2.0));
-  return repeats_of_keypoints(log_of(poses, loops), camera(), stances);
+  // Each sees 2 m along its x and 3 m across.
+  const std::vector<Stance> stances(poses.size(), Stance(1.0));
+  return repeats_of_keypoints(log_of(poses, loops), test::wide_camera(), stances);
 }
 
 // N (N − 1) / 2 registrations tell no more than N − 1.
@@ -71,7 +63,7 @@ TEST(RepeatedKeypoints, AreNoneOfASinglePair) {
 TEST(RepeatedKeypoints, AreNoneWhereOtherPlacesAreMatched) {
   for (const double turn_rad : {0.0, 3.14159265358979}) {
     EXPECT_THAT(
-        repeats({{-1.3, 0.0, turn_rad}, {0.0, 0.0, 0.0}, {1.3, 0.0, turn_rad}}, {{0, 1}, {1, 2}}),
+        repeats({{-1.05, 0.0, turn_rad}, {0.0, 0.0, 0.0}, {1.05, 0.0, turn_rad}}, {{0, 1}, {1, 2}}),
         Each(DoubleNear(1.0, 1e-12)));
   }
 }
@@ -91,7 +83,7 @@ TEST(RepeatedKeypoints, CountByTheDensityOfMatches) {
 // Forty matches in a strip of 10 cm are denser than any number over a whole picture.
 TEST(RepeatedKeypoints, AreNotCountedByASliver) {
   const std::vector<Loop> loops{{0, 1, 200}, {0, 2, 200}, {1, 2, 200}, {2, 3, 40}};
-  const std::vector<double> found = repeats({{}, {}, {}, {2.4, 0.0, 0.0}}, loops);
+  const std::vector<double> found = repeats({{}, {}, {}, {1.9, 0.0, 0.0}}, loops);
   EXPECT_NEAR(found[0], 1.5, 1e-12);
   EXPECT_GT(found[1], 1.5 - 1e-12);
 }

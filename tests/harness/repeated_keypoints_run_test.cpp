@@ -11,6 +11,7 @@
 #include "fathom/estimators/builtin.hpp"
 #include "fathom/front_end/repeated_keypoints.hpp"
 #include "fathom/harness/replay.hpp"
+#include "front_end/estimate.hpp"
 
 namespace fathom {
 namespace {
@@ -50,7 +51,7 @@ class Line {
     Seen seen;
     for (const Eigen::Vector2d& point : floor_) {
       const Eigen::Vector2d there = point - pose.position();
-      seen.is_seen.push_back(std::abs(there.x()) < 1.25 && std::abs(there.y()) < 1.0);
+      seen.is_seen.push_back(std::abs(there.x()) < 1.0 && std::abs(there.y()) < 1.5);
       seen.points.emplace_back(there +
                                kOfKeypoint_m * Eigen::Vector2d(random_.normal(), random_.normal()));
     }
@@ -93,14 +94,8 @@ double nees_at_the_end(const MeasurementLog& log, const std::vector<Pose>& truth
 }
 
 TEST(RepeatedKeypoints, CountedOnceLeaveAnHonestEstimate) {
-  CameraModel model;
-  model.width = 200;
-  model.height = 250;
-  model.fx = model.fy = 200.0;
-  model.cx = 99.5;
-  model.cy = 124.5;
-  const Camera camera(model);
-  const std::vector<Stance> stances(kPictures, Stance(2.0));
+  const Camera camera = test::wide_camera();
+  const std::vector<Stance> stances(kPictures, Stance(1.0));
   constexpr std::uint64_t kSurveys = 150;
   double independent = 0.0;
   double once = 0.0;

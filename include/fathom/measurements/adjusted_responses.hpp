@@ -12,9 +12,9 @@ namespace fathom {
 ///
 /// Of pictures of a floor, whose first error is that of the altitude. G is taken from matched
 /// points, so that altitude_from G_from + altitude_to G_to is the measured motion z, ν included. A
-/// scale common to all poses and altitudes then scales ν, too, and the smaller ν² prefers a smaller
-/// map: by some (registrations a picture) · (σ / altitude)² of it
-/// (docs/shared_errors.md). Taken half from each end, ν leaves the sum.
+/// scale common to all poses and altitudes then scales ν, too, and F is smaller on a smaller map
+/// (docs/shared_errors.md says by how much). Taken half from each end, ν leaves the sum.
+///
 /// `altitudes_m`, as measured, by keyframe. ν counts up to ten of its standard deviations; an end
 /// whose altitude has no σ is left alone.
 MeasurementLog with_adjusted_responses(const MeasurementLog& log, std::span<const Pose> optimum,
